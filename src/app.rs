@@ -82,7 +82,7 @@ impl ChromascopeApp {
         mut saved: SavedView,
         mut files: Files,
     ) -> Self {
-        saved.layout.retain(|pane| panes::by_kind(pane).is_some());
+        saved.mend(|pane| panes::by_kind(pane).is_some());
         theme::apply(ctx);
         files.wake(ctx);
         let repaint = || {

@@ -12,7 +12,8 @@ use crate::export::spectra::Form;
 use crate::plot_item::{PlotItem, SensorId};
 use crate::view::ReportOn;
 use crate::view::import::ImportItem;
-use crate::workspaces::{PaneKind, Workspace};
+use crate::view::tour::Tour;
+use crate::workspaces::{PaneKind, Side, Workspace};
 
 /// Something to do at the start of the next frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,6 +24,8 @@ pub enum Command {
     Session(SessionCommand),
     Open,
     OpenRecorded,
+    /// Read recorded values from a file.
+    ReadRecorded(std::path::PathBuf),
     OpenFolder,
     Report(ReportOn),
     StopReport,
@@ -62,9 +65,8 @@ pub enum Command {
     CopyNumbers(PaneKind),
     Show(Workspace),
     Maximize(PaneKind),
-    TogglePane(PaneKind),
-    /// Show the inspector, in its column or over the center.
-    ToggleInspector,
+    /// Show or hide what is at a side of Compare; a column that has no place in a narrow window lies over the center.
+    Toggle(Side),
     /// Let plots show their own ranges.
     ResetView,
     ResetLayout,
@@ -109,7 +111,7 @@ impl From<SessionCommand> for Command {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TourMove {
-    Begin,
+    Begin(Tour),
     Back,
     /// To the next step; from the last one, to the end.
     Next,
@@ -121,10 +123,9 @@ impl Command {
     /// True if it shows other panes, so that the Figure page closes.
     pub fn shows_panes(&self) -> bool {
         match self {
-            Self::TogglePane(pane) => *pane != PaneKind::LIBRARY,
+            Self::Toggle(side) => *side != Side::Left,
             Self::Show(_)
             | Self::Maximize(_)
-            | Self::ToggleInspector
             | Self::ResetLayout
             | Self::GoTo(_)
             | Self::Seek(..)
@@ -174,7 +175,7 @@ pub fn key_bindings(focused: PaneKind) -> Vec<KeyBinding> {
         with_ctrl(Key::E, Command::FigurePage(focused), "The pane as the printed page: size, style, PDF"),
         with_ctrl(Key::Z, Command::Undo, "Undo"),
         with_ctrl(Key::Y, Command::Redo, "Redo"),
-        with_ctrl(Key::F, Command::FocusSearch, "Search the library"),
+        with_ctrl(Key::F, Command::FocusSearch, "Add a camera; in Data, search all sets"),
         with_ctrl(Key::K, Command::FindAnything, "Find anything"),
     ];
     let numbers = [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7, Key::Num8, Key::Num9];
@@ -183,8 +184,8 @@ pub fn key_bindings(focused: PaneKind) -> Vec<KeyBinding> {
     }
     keys.extend([
         letter(Key::F, Command::Maximize(focused), "Maximize the pane"),
-        letter(Key::L, Command::TogglePane(PaneKind::LIBRARY), "Library"),
-        letter(Key::I, Command::ToggleInspector, "Inspector"),
+        letter(Key::L, Command::Toggle(Side::Left), "Compared sensors"),
+        letter(Key::I, Command::Toggle(Side::Right), "Right column"),
         letter(Key::T, Command::FocusTemperature, "Type a temperature"),
         letter(Key::P, Command::Pin, "Pin the selection"),
         letter(Key::D, Command::ToggleDifference, "Difference bars"),
@@ -207,9 +208,10 @@ pub const THEMES: [(egui::ThemePreference, &str); 3] = [
     (egui::ThemePreference::Light, "Light"),
 ];
 
-pub const REPORTS: [(ReportOn, &str); 2] = [
-    (ReportOn::Paper, "With the paper's cameras and patches…"),
-    (ReportOn::Document, "With these cameras and patches…"),
+pub const REPORTS: [(ReportOn, &str); 3] = [
+    (ReportOn::Comparison, "This comparison…"),
+    (ReportOn::Paper, "The paper, with its cameras and patches…"),
+    (ReportOn::Document, "The paper, with these cameras and patches…"),
 ];
 
 pub fn key_name(shortcut: KeyboardShortcut) -> String {

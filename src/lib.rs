@@ -22,7 +22,7 @@ pub use chromascope_workbench::{
     report, results, scene, terminal,
 };
 
-use chromascope_workbench::format;
+use chromascope_workbench::{format, names};
 
 pub mod app;
 pub mod command;

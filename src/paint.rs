@@ -25,6 +25,8 @@ pub enum Emphasis {
     Normal,
     /// Under the pointer, in this pane or another: thicker rim, thin ring.
     Hovered,
+    /// Part or whole of what is under the pointer: wider line.
+    Pointed,
     /// Chosen: wider line, ring around points.
     Selected,
     /// Part or whole of what is chosen: wider line.

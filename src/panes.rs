@@ -3,13 +3,15 @@
 //! A new pane is one file and its line in [`ALL`] (with its `mod` line), as the help page on the architecture shows.
 //!
 //! What it keeps from frame to frame is a struct in its file, and a slow answer is asked for in each frame: nothing is to be
-//! registered, ended or waited for (`tests/app/panes.rs` has a whole one). It is then in View, Panes, in the title menu of every
-//! other pane, in saved layouts and in exports. A place that a workspace starts with is a choice of `workspaces::Layout`.
+//! registered, ended or waited for (`tests/app/panes.rs` has a whole one). It is then among the tabs of the views of Compare, in
+//! saved layouts and in exports; another place is named in `PaneKind::slot`.
 
 pub mod chromaticity;
+pub mod compared;
 pub mod context;
 pub mod correction;
 pub mod curves;
+pub mod differences;
 pub mod figure_page;
 pub mod head_to_head;
 pub mod help;
@@ -24,9 +26,9 @@ pub mod methods;
 pub mod metrics;
 pub mod recorded;
 pub mod render;
-pub mod render_settings;
 pub mod report_card;
 pub mod scene_bar;
+pub mod settings;
 pub mod spectra;
 pub mod statistics;
 pub mod status_bar;
@@ -45,26 +47,28 @@ use crate::workspaces::PaneKind;
 
 /// All panes, in the order they are listed.
 pub const ALL: &[&Pane] = &[
-    &library::PANE,
+    &compared::PANE,
     &chromaticity::PANE,
+    &differences::PANE,
     &swatches::PANE,
-    &spectra::PANE,
-    &light::PANE,
-    &inspector::PANE,
     &render::PANE,
-    &render_settings::PANE,
+    &spectra::PANE,
+    &inspector::PANE,
+    &settings::PANE,
     &metrics::PANE,
-    &head_to_head::PANE,
     &report_card::PANE,
+    &head_to_head::PANE,
+    &correction::PANE,
     &metamers::PANE,
+    &recorded::PANE,
+    &library::PANE,
     &import::PANE,
-    &curves::PANE,
     &interpretation::PANE,
+    &curves::PANE,
+    &light::PANE,
     &methods::PANE,
     &tolerance::PANE,
     &statistics::PANE,
-    &recorded::PANE,
-    &correction::PANE,
 ];
 
 /// A pane, if there is one of this id.

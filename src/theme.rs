@@ -181,12 +181,21 @@ fn text_styles() -> std::collections::BTreeMap<TextStyle, FontId> {
     .into()
 }
 
-/// The bundled fonts: the same on screen and in figures.
+const BOLD_FONT: &[u8] = include_bytes!("../assets/fonts/DejaVuSans-Bold.ttf");
+
+/// Family of the bold face, which is for headings and emphasis on screen alone.
+pub fn bold() -> FontFamily {
+    FontFamily::Name("DejaVu Sans Bold".into())
+}
+
+/// The bundled fonts: text and numbers the same on screen and in figures.
 pub fn fonts() -> FontDefinitions {
     let mut fonts = FontDefinitions::empty();
-    for (name, bytes, family) in
-        [(FONT_FAMILY, FONT, FontFamily::Proportional), (MONO_FAMILY, MONO_FONT, FontFamily::Monospace)]
-    {
+    for (name, bytes, family) in [
+        (FONT_FAMILY, FONT, FontFamily::Proportional),
+        (MONO_FAMILY, MONO_FONT, FontFamily::Monospace),
+        ("DejaVu Sans Bold", BOLD_FONT, bold()),
+    ] {
         fonts.font_data.insert(name.to_owned(), Arc::new(FontData::from_static(bytes)));
         // The text font has characters the other lacks.
         let order = [name, FONT_FAMILY].map(str::to_owned);

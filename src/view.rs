@@ -1,7 +1,9 @@
 //! View state: selection, panes and layout. Not part of the document, and not undoable.
 
 pub mod correction;
+mod help;
 pub mod import;
+mod places;
 pub mod recorded;
 pub mod template;
 pub mod tour;
@@ -28,8 +30,10 @@ use crate::plot_item::{PickIndex, PlotItem, Relation, SensorId};
 use crate::theme::Surround;
 use crate::workspaces::{Layout, PaneKind, Workspace};
 
+pub use help::{HelpView, PickState};
+
 pub use crate::figures::chromaticity::shown::{DiagramFit, Ranges};
-pub use crate::figures::look::Sorting;
+pub use crate::figures::look::{DifferencePlane, Sorting};
 pub use crate::figures::look::{PixelPlace, RenderMode};
 pub use crate::figures::look::{Shows, SpectraLayout, SwatchLayout, SwatchStyle};
 pub use crate::scene::metrics::RankedCameras;
@@ -54,7 +58,15 @@ pub struct View {
     /// The pane that keys and exports mean.
     pub focused: Option<PaneKind>,
     /// True if the column that a narrow window omits lies over the center.
-    pub inspector_over: bool,
+    pub column_over: bool,
+    /// A pane in place of the right column, until it is closed.
+    pub card: Option<PaneKind>,
+    /// True while the page on the program's own methods takes the place of the workspace.
+    pub numerics: bool,
+    /// The view of Compare that had the focus last: the settings beside are its.
+    pub settings_of: Option<PaneKind>,
+    /// True while cameras are added to the comparison.
+    pub adding: bool,
     pub diagram: DiagramView,
     /// Other plots that are zoomed, by pane: the title of the figure, and its ranges.
     pub zoomed: HashMap<PaneKind, (String, Ranges)>,
@@ -76,7 +88,7 @@ pub struct View {
     pub table_copies: bool,
     pub focus_temperature: bool,
     pub help: HelpView,
-    pub tour: Option<usize>,
+    pub tour: Option<(tour::Tour, usize)>,
     pub about: bool,
     /// Share of the loci that is drawn, while they draw in.
     pub locus_share: Option<f64>,
@@ -101,7 +113,10 @@ pub struct View {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ReportOn {
+    /// What is compared, under its conditions.
+    Comparison,
     Paper,
+    /// The paper with the cameras and patches that are compared.
     Document,
 }
 
@@ -122,6 +137,7 @@ pub struct SavedView {
     pub swatch_style: SwatchStyle,
     pub spectra_layout: SpectraLayout,
     pub difference_bars: bool,
+    pub difference_plane: DifferencePlane,
     /// Nothing moves by itself.
     pub reduced_motion: bool,
     /// The loci are to draw in, as on the first start.
@@ -148,6 +164,7 @@ impl Default for SavedView {
             swatch_style: SwatchStyle::default(),
             spectra_layout: SpectraLayout::default(),
             difference_bars: true,
+            difference_plane: DifferencePlane::default(),
             reduced_motion: false,
             draws_in: false,
             folded: ["observers", "charts", "illuminants", "materials"].map(str::to_owned).into(),
@@ -169,6 +186,8 @@ impl Settings for SavedView {
             pick(swatch_style: SwatchStyle, Row), none();
         "difference_bars" "Bars under swatches" in Setting::DEFAULT, by "difference", "Differences as bars",
             switch(|look| look.difference_bars, |look, on| look.difference_bars = on), none();
+        "difference_plane" "Differences" in Setting::DEFAULT, by "delta arrows displacement loci offset", "Plane of the differences",
+            pick(difference_plane: DifferencePlane, Row), none();
         "spectra_layout" "Spectra" in Setting::DEFAULT, by "layout", "Plots of the spectra",
             pick(spectra_layout: SpectraLayout, Row), none();
         "mode" "Pictures" in Setting::DEFAULT, by "render mode maps", "Pictures that are shown", choice(Pick {
@@ -182,6 +201,12 @@ impl Settings for SavedView {
         "reduced_motion" "Reduce motion" in Setting::DEFAULT, by "animation", "Nothing moves by itself",
             switch(|look| look.reduced_motion, |look, on| look.reduced_motion = on), none();
     };
+}
+
+/// Workspace of a saved view, of any version: those of earlier ones had the ids of their panes.
+#[derive(Clone, Copy, Debug, Deserialize)]
+pub struct EarlierView {
+    workspace: PaneKind,
 }
 
 /// Fields that stay with the window when a session is opened or saved.
@@ -199,13 +224,20 @@ impl SavedView {
     pub fn take_session(&mut self, view: Self) {
         let (recent, import, folded) = (take(&mut self.recent), take(&mut self.import), take(&mut self.folded));
         *self = Self { recent, import, folded, draws_in: false, reduced_motion: self.reduced_motion, ..view };
-        self.mend();
     }
 
-    /// Corrects values of a damaged file that are out of range.
-    pub fn mend(&mut self) {
+    /// Corrects values of a damaged file that are out of range, and panes that are not where they are now.
+    pub fn mend(&mut self, exists: impl Fn(PaneKind) -> bool) {
         self.render.mend();
         self.page.paper.mend();
+        self.layout.mend(exists);
+    }
+
+    /// Shows what the workspace of an earlier version showed, by its id.
+    pub fn open_earlier(&mut self, EarlierView { workspace }: &EarlierView) {
+        if [PaneKind::RENDER, PaneKind::SPECTRA].contains(workspace) {
+            self.layout.put(Workspace::Compare, 0, *workspace);
+        }
     }
 
     /// View of the first start, under the system's wish for motion.
@@ -234,6 +266,8 @@ pub struct Status {
 pub enum Offer {
     Use(SetKind, String),
     Open(PathBuf),
+    /// Read raw values of a chart from a picture.
+    Raw(PathBuf),
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -266,6 +300,7 @@ impl View {
             swatch_layout: saved.swatch_layout,
             swatch_style: saved.swatch_style,
             without_bars: !saved.difference_bars,
+            difference_plane: saved.difference_plane,
             spectra_layout: saved.spectra_layout,
             mode: saved.render.mode,
             surround: saved.surround,
@@ -287,18 +322,6 @@ impl View {
         if let Some(setting) = SavedView::ALL.iter().find(|setting| setting.key == key) {
             setting.value.choose(&mut self.saved, place);
         }
-    }
-
-    /// The pane that keys and menus mean: the one with the keyboard, else the first of the workspace.
-    pub fn keyed(&self) -> PaneKind {
-        let first = self.saved.layout.places(self.saved.workspace).iter().flatten().next().copied();
-        self.page.or(self.focused).or(first).unwrap_or(PaneKind::CHROMATICITY)
-    }
-
-    /// The pane whose figure a key or menu means: the wanted one if it has figures, else the first in the workspace that has.
-    pub fn pictured(&self, wanted: PaneKind, has_figures: impl Fn(PaneKind) -> bool) -> PaneKind {
-        let places = self.saved.layout.places(self.saved.workspace).iter().flatten().copied();
-        std::iter::once(wanted).chain(places).find(|kind| has_figures(*kind)).unwrap_or(PaneKind::CHROMATICITY)
     }
 
     /// Notes what a pane's plot, whose figure has this title, is zoomed to, if it is.
@@ -375,7 +398,11 @@ impl View {
                 Emphasis::Selected
             }
             (_, Some(Relation::Same)) => Emphasis::Related,
-            (Some(Relation::Same), _) => Emphasis::Hovered,
+            // Of a camera's points, only the one under the pointer has a ring.
+            (Some(Relation::Same), _) if self.hovered.as_ref().is_some_and(|thing| thing.is_alike(drawn)) => {
+                Emphasis::Hovered
+            }
+            (Some(Relation::Same), _) => Emphasis::Pointed,
             _ if pinned => Emphasis::Selected,
             (_, Some(Relation::Other)) if !self.selected_elsewhere => Emphasis::Faded,
             _ => Emphasis::Normal,
@@ -384,50 +411,6 @@ impl View {
 
     pub fn emphasis_of(&self, things: &PickIndex, tag: Tag, reference: &str) -> Emphasis {
         things.get(tag).map_or(Emphasis::Normal, |thing| self.emphasis(thing, reference))
-    }
-}
-
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct PickState {
-    pub text: String,
-    /// The highlighted line, counted among those that can be chosen; none for the one that is set.
-    pub picked: Option<usize>,
-}
-
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct HelpView {
-    /// Name of the open page; none while the window is closed.
-    pub page: Option<&'static str>,
-    pub visited: Vec<&'static str>,
-    pub query: String,
-    pub picked: usize,
-    pub scroll_to: Option<usize>,
-    /// True if the search field takes the keyboard in the next frame.
-    pub focus_search: bool,
-}
-
-impl HelpView {
-    pub fn open(&mut self, page: &'static str, block: usize) {
-        if let Some(last) = self.page.replace(page).filter(|last| *last != page) {
-            self.visited.push(last);
-        }
-        self.scroll_to = Some(block);
-    }
-
-    pub fn back(&mut self) {
-        if let Some(page) = self.visited.pop() {
-            (self.page, self.scroll_to) = (Some(page), Some(0));
-        }
-    }
-
-    /// Clears the search, or else closes the window; returns whether there was anything to do.
-    pub fn escape(&mut self) -> bool {
-        if self.page.is_some() && !self.query.is_empty() {
-            self.query.clear();
-            return true;
-        }
-        self.visited.clear();
-        self.page.take().is_some()
     }
 }
 

@@ -1,4 +1,4 @@
-//! Workspaces: tables of splits that place the panes, no docking.
+//! Workspaces: tables of slots that place the panes, no docking. A slot holds one of its panes, which are its tabs.
 
 use std::collections::BTreeSet;
 use std::fmt::{self, Formatter};
@@ -16,15 +16,19 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 pub struct PaneKind(&'static str);
 
 impl PaneKind {
-    /// Sensors compared, and all data sets.
+    /// Sensors compared: the only legend.
+    pub const COMPARED: Self = Self::new("Compared");
+    /// All data sets as a table.
     pub const LIBRARY: Self = Self::new("Library");
     pub const CHROMATICITY: Self = Self::new("Chromaticity");
+    /// Each camera's differences from the reference.
+    pub const DIFFERENCES: Self = Self::new("Differences");
     pub const SWATCHES: Self = Self::new("Swatches");
     pub const SPECTRA: Self = Self::new("Spectra");
     pub const INSPECTOR: Self = Self::new("Inspector");
     pub const RENDER: Self = Self::new("Render");
-    /// Mesh, surface, light and view of the render.
-    pub const RENDER_SETTINGS: Self = Self::new("RenderSetup");
+    /// Settings of the view that has the focus.
+    pub const SETTINGS: Self = Self::new("RenderSetup");
     /// The user's files, and the text of one with the marks of how it was read.
     pub const IMPORT: Self = Self::new("Import");
     pub const CURVES: Self = Self::new("Curves");
@@ -40,16 +44,30 @@ impl PaneKind {
     pub const LIGHT: Self = Self::new("Light");
     pub const CORRECTION: Self = Self::new("Correction");
     pub const RECORDED: Self = Self::new("Recorded");
+    pub const METAMERS: Self = Self::new("Metamers");
     pub const TOLERANCE: Self = Self::new("Tolerance");
 
-    /// The workspace that it is listed under: the one it starts in, else Metrics.
-    pub fn group(self) -> Workspace {
-        Layout::home(self).unwrap_or(Workspace::Metrics)
+    /// Where it stands. A pane that is not listed here is a view of Compare.
+    pub fn slot(self) -> Slot {
+        match self {
+            Self::COMPARED => Slot::Left,
+            Self::INSPECTOR => Slot::Selection,
+            Self::SETTINGS => Slot::Settings,
+            Self::METRICS => Slot::List,
+            Self::REPORT_CARD | Self::HEAD_TO_HEAD | Self::CORRECTION | Self::METAMERS | Self::RECORDED => Slot::Page,
+            Self::LIBRARY => Slot::Sets,
+            Self::IMPORT => Slot::Text,
+            Self::INTERPRETATION => Slot::Reading,
+            Self::CURVES => Slot::Curve,
+            Self::METHODS | Self::TOLERANCE | Self::STATISTICS => Slot::Numerics,
+            Self::LIGHT => Slot::Card,
+            _ => Slot::View,
+        }
     }
 
     /// True for a pane of controls, which gains nothing from the whole window.
     pub fn is_controls(self) -> bool {
-        matches!(self, Self::LIBRARY | Self::RENDER_SETTINGS | Self::TOLERANCE | Self::INTERPRETATION)
+        matches!(self, Self::COMPARED | Self::SETTINGS | Self::TOLERANCE | Self::INTERPRETATION)
     }
 
     /// A pane of this id. Ids stay: layouts of earlier runs name them.
@@ -117,223 +135,334 @@ fn interned(id: String) -> PaneKind {
 }
 
 choices! {
-    /// The workspaces, in the order of their tabs and keys.
+    /// The workspaces, in the order of their tabs and keys. Those of earlier versions open in the one that took them in.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
     pub enum Workspace {
         #[default]
-        Compare = "compare", "Compare", "Diagram, swatches and spectra of the compared sensors";
-        Spectra = "spectra", "Spectra", "Light, patches and sensitivities";
-        Render = "render", "Render", "Pictures through each camera";
-        Metrics = "metrics", "Metrics", "Cameras ranked, their corrections, the light judged";
-        Import = "import", "Import", "Files, and how they are read";
-        /// Run time and error of each method on the scene, the skipped work, the statistics of the pictures.
-        #[serde(alias = "Accuracy")]
-        Numerics = "numerics", "Numerics", "Run time and error of each method";
+        #[serde(alias = "Spectra", alias = "Render", alias = "Numerics", alias = "Accuracy")]
+        Compare = "compare", "Compare", "How far off the compared cameras are, and where";
+        #[serde(alias = "Metrics")]
+        Rank = "rank", "Rank", "Every camera by its figures of merit, and one camera's page";
+        #[serde(alias = "Import")]
+        Data = "data", "Data", "All data sets, your files, and how they are read";
     }
 }
 
+/// A part of a workspace that holds one pane at a time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Slot {
+    Left,
+    /// Either of the two views of Compare.
+    View,
+    Selection,
+    Settings,
+    List,
+    Page,
+    Sets,
+    Text,
+    Reading,
+    Curve,
+    /// The page that Help opens.
+    Numerics,
+    /// Over the right column until it is closed.
+    Card,
+}
+
+impl Slot {
+    /// True for a pane that can be shown in it.
+    pub fn takes(self, pane: PaneKind) -> bool {
+        // In Data, what is selected may be a set that was not read from a file.
+        pane.slot() == self || (self, pane) == (Self::Reading, PaneKind::INSPECTOR)
+    }
+}
+
+/// Panes of a workspace: upper and lower in its center, upper and lower in its right column.
+pub type Places = [Option<PaneKind>; 4];
+
 impl Workspace {
-    /// True where a narrow window hides the library instead of the right column.
-    pub const fn keeps_right_column(self) -> bool {
-        matches!(self, Self::Render | Self::Metrics | Self::Import | Self::Numerics)
+    /// Slots in the order of [`Places`].
+    pub const fn slots(self) -> [Option<Slot>; 4] {
+        match self {
+            Self::Compare => [Some(Slot::View), Some(Slot::View), Some(Slot::Selection), Some(Slot::Settings)],
+            Self::Rank => [Some(Slot::List), None, Some(Slot::Page), None],
+            Self::Data => [Some(Slot::Sets), Some(Slot::Text), Some(Slot::Reading), Some(Slot::Curve)],
+        }
     }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Splitter {
-    Library,
+    Left,
     Right,
+    /// Between the list and the page of Rank.
+    Page,
     Center,
     RightRows,
+    /// Between the table of sets and the text of a file.
+    Text,
+    Curve,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Layout {
-    /// Width of the library in points; none for the window's own choice.
-    pub library_width: Option<f32>,
+    /// Width of the left column in points; none for the window's own choice. Files have the names of the first layouts.
+    #[serde(rename = "library_width")]
+    pub left_width: Option<f32>,
     /// Width of the right column in points; none for the window's own choice.
     pub right_width: Option<f32>,
+    /// Width of the page of Rank in points; none for a third.
+    pub page_width: Option<f32>,
     /// Height of the center's lower pane as a share.
     pub lower_share: f32,
     /// Height of the right column's lower pane as a share.
     pub right_lower_share: f32,
-    pub library: bool,
-    /// Compare: center upper, center lower, right upper, right lower.
-    pub compare: [Option<PaneKind>; 4],
-    pub spectra: [Option<PaneKind>; 4],
-    pub render: [Option<PaneKind>; 4],
-    pub metrics: [Option<PaneKind>; 4],
-    pub import: [Option<PaneKind>; 4],
-    #[serde(alias = "accuracy")]
-    pub numerics: [Option<PaneKind>; 4],
+    pub text_share: f32,
+    pub curve_share: f32,
+    #[serde(rename = "library")]
+    pub left: bool,
+    pub right: bool,
+    pub compare: Places,
+    #[serde(rename = "metrics")]
+    pub rank: Places,
+    #[serde(rename = "import")]
+    pub data: Places,
 }
 
 impl Default for Layout {
     fn default() -> Self {
         Self {
-            library_width: None,
+            left_width: None,
             right_width: None,
-            lower_share: 0.31,
+            page_width: None,
+            lower_share: 0.335,
             right_lower_share: 0.5,
-            library: true,
+            text_share: 0.5,
+            curve_share: 0.3,
+            left: true,
+            right: true,
             compare: [
                 Some(PaneKind::CHROMATICITY),
                 Some(PaneKind::SWATCHES),
                 Some(PaneKind::INSPECTOR),
-                Some(PaneKind::SPECTRA),
+                Some(PaneKind::SETTINGS),
             ],
-            spectra: [Some(PaneKind::SPECTRA), None, Some(PaneKind::INSPECTOR), None],
-            render: [Some(PaneKind::RENDER), None, Some(PaneKind::RENDER_SETTINGS), None],
-            metrics: [
-                Some(PaneKind::METRICS),
-                Some(PaneKind::CORRECTION),
-                Some(PaneKind::HEAD_TO_HEAD),
-                Some(PaneKind::LIGHT),
+            rank: [Some(PaneKind::METRICS), None, Some(PaneKind::REPORT_CARD), None],
+            data: [
+                Some(PaneKind::LIBRARY),
+                Some(PaneKind::IMPORT),
+                Some(PaneKind::INTERPRETATION),
+                Some(PaneKind::CURVES),
             ],
-            import: [Some(PaneKind::IMPORT), Some(PaneKind::CURVES), Some(PaneKind::INTERPRETATION), None],
-            numerics: [Some(PaneKind::METHODS), None, Some(PaneKind::TOLERANCE), Some(PaneKind::STATISTICS)],
         }
     }
 }
 
 impl Layout {
-    pub fn places(&self, workspace: Workspace) -> &[Option<PaneKind>; 4] {
-        let Self { compare, spectra, render, metrics, import, numerics, .. } = self;
-        [compare, spectra, render, metrics, import, numerics][workspace as usize]
+    pub fn places(&self, workspace: Workspace) -> &Places {
+        [&self.compare, &self.rank, &self.data][workspace as usize]
     }
 
-    pub fn places_mut(&mut self, workspace: Workspace) -> &mut [Option<PaneKind>; 4] {
+    pub fn places_mut(&mut self, workspace: Workspace) -> &mut Places {
         match workspace {
             Workspace::Compare => &mut self.compare,
-            Workspace::Spectra => &mut self.spectra,
-            Workspace::Render => &mut self.render,
-            Workspace::Metrics => &mut self.metrics,
-            Workspace::Import => &mut self.import,
-            Workspace::Numerics => &mut self.numerics,
+            Workspace::Rank => &mut self.rank,
+            Workspace::Data => &mut self.data,
         }
     }
 
-    /// Empties the places of panes that do not exist: a layout may be of another version.
-    pub fn retain(&mut self, exists: impl Fn(PaneKind) -> bool) {
+    /// Puts a pane of its own into each slot that holds another: a layout may be of another version.
+    pub fn mend(&mut self, exists: impl Fn(PaneKind) -> bool) {
+        let start = Self::default();
         for workspace in Workspace::ALL {
-            for place in self.places_mut(workspace) {
-                *place = place.filter(|pane| exists(*pane));
+            let places = self.places_mut(workspace);
+            for (at, slot) in workspace.slots().into_iter().enumerate() {
+                let fits = |pane: &PaneKind| exists(*pane) && slot.is_some_and(|slot| slot.takes(*pane));
+                // The lower view may be folded away.
+                if places[at].is_some() || (at, slot) != (1, Some(Slot::View)) {
+                    places[at] = places[at].filter(fits).or(start.places(workspace)[at]);
+                }
             }
         }
+        if self.compare[0] == self.compare[1] {
+            self.compare[1] = start.compare.into_iter().find(|pane| *pane != self.compare[0]).flatten();
+        }
     }
 
-    pub fn home(pane: PaneKind) -> Option<Workspace> {
-        let start = Self::default();
-        Workspace::ALL.into_iter().find(|workspace| start.places(*workspace).contains(&Some(pane)))
+    /// Where a pane is or can be shown: in this workspace if it has a slot for it, else in its own, and in which place there.
+    pub fn place_of(&self, pane: PaneKind, now: Workspace) -> Option<(Workspace, usize)> {
+        std::iter::once(now).chain(Workspace::ALL).find_map(|workspace| {
+            let shown = self.places(workspace).iter().position(|place| *place == Some(pane));
+            let takes = |slot: &Option<Slot>| slot.is_some_and(|slot| slot.takes(pane));
+            let place = shown.or_else(|| workspace.slots().iter().position(takes))?;
+            Some((workspace, place))
+        })
     }
 
     pub fn shows(&self, workspace: Workspace, pane: PaneKind) -> bool {
-        if pane == PaneKind::LIBRARY { self.library } else { self.places(workspace).contains(&Some(pane)) }
+        self.places(workspace).contains(&Some(pane))
     }
 
-    /// Shows or hides a pane. A pane is shown in its own place, else in the first free one, else in the last.
-    pub fn toggle(&mut self, workspace: Workspace, pane: PaneKind) {
-        if pane == PaneKind::LIBRARY {
-            self.library = !self.library;
-            return;
-        }
-        let home = Self::default().places(workspace).iter().position(|p| *p == Some(pane));
-        // In a workspace without a place for the inspector, it is on the right, as elsewhere.
-        let home = home.or((pane == PaneKind::INSPECTOR).then_some(3));
+    /// Puts a pane into a place; one that was shown elsewhere in the workspace changes places.
+    pub fn put(&mut self, workspace: Workspace, at: usize, pane: PaneKind) {
         let places = self.places_mut(workspace);
-        if let Some(shown) = places.iter_mut().find(|p| **p == Some(pane)) {
-            *shown = None;
-            return;
+        if let Some(other) = places.iter().position(|place| *place == Some(pane)) {
+            places.swap(other, at);
         }
-        let free = home.filter(|&h| places[h].is_none()).or_else(|| places.iter().position(Option::is_none));
-        places[free.unwrap_or(3)] = Some(pane);
+        places[at] = Some(pane);
     }
 
-    /// Puts a pane into the place of another; one that was shown elsewhere changes places.
-    pub fn replace(&mut self, workspace: Workspace, old: PaneKind, new: PaneKind) {
-        let places = self.places_mut(workspace);
-        for place in places.iter_mut() {
-            if *place == Some(old) {
-                *place = Some(new);
-            } else if *place == Some(new) {
-                *place = Some(old);
-            }
-        }
+    /// Shows the lower view, or folds it away.
+    pub fn toggle_lower(&mut self) {
+        let views = [PaneKind::SWATCHES, PaneKind::CHROMATICITY];
+        let other = views.into_iter().find(|view| Some(*view) != self.compare[0]);
+        self.compare[1] = if self.compare[1].is_some() { None } else { other };
     }
+}
+
+/// A border of the center, behind which something is hidden.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Side {
+    Left,
+    Right,
+    Lower,
 }
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Arrangement {
     pub panes: Vec<(PaneKind, Rect)>,
     pub splitters: Vec<(Splitter, Rect)>,
-    /// A pane that overlaps the others.
-    pub over: Option<(PaneKind, Rect)>,
+    /// Handles of what is hidden.
+    pub handles: Vec<(Side, Rect)>,
+    /// The right column where it overlaps the others.
+    pub over: Vec<(PaneKind, Rect)>,
     pub narrow: bool,
 }
 
-/// Below this width a column is omitted: the right one, in Render and Import the library.
+impl Arrangement {
+    pub fn shows(&self, pane: PaneKind) -> bool {
+        self.panes.iter().chain(&self.over).any(|(shown, _)| *shown == pane)
+    }
+}
+
+/// What is arranged.
+#[derive(Clone, Copy, Debug)]
+pub struct Shown<'a> {
+    pub workspace: Workspace,
+    pub layout: &'a Layout,
+    pub maximized: Option<PaneKind>,
+    /// A pane in place of the right column.
+    pub card: Option<PaneKind>,
+    pub numerics: bool,
+    /// The view that the settings are of has some.
+    pub has_settings: bool,
+    /// The column that a narrow window omits lies over the center.
+    pub column_over: bool,
+}
+
+/// Below this width Compare omits its right column.
 const NARROW: f32 = 1100.0;
 /// Once omitted, it returns only this much above.
 const HYSTERESIS: f32 = 40.0;
 /// Above this width the columns grow.
 const LARGE: f32 = 1800.0;
 const GAP: f32 = 4.0;
+const HANDLE: f32 = 12.0;
+/// Width that the page of Rank needs.
+const PAGE: f32 = 316.0;
+const COLUMN: f32 = 316.0;
 
-/// Arranges a workspace in an area. `was_narrow` prevents a window at the limit from flickering; `column_over` lays the omitted
-/// column of a narrow window over the center.
-pub fn arrange(
-    workspace: Workspace,
-    layout: &Layout,
-    area: Rect,
-    was_narrow: bool,
-    maximized: Option<PaneKind>,
-    column_over: bool,
-) -> Arrangement {
+/// Arranges a workspace in an area. `was_narrow` prevents a window at the limit from flickering.
+pub fn arrange(shown: &Shown<'_>, area: Rect, was_narrow: bool) -> Arrangement {
+    let &Shown { workspace, layout, maximized, card, numerics, has_settings, .. } = shown;
     if let Some(pane) = maximized {
         return Arrangement { panes: vec![(pane, area)], narrow: was_narrow, ..Arrangement::default() };
     }
     let narrow = area.width() < if was_narrow { NARROW + HYSTERESIS } else { NARROW };
-    let large = area.width() > LARGE;
     let mut made = Arrangement { narrow, ..Arrangement::default() };
-    let mut rest = area;
-    let library_left_out = narrow && workspace.keeps_right_column();
-    if layout.library && !library_left_out {
-        let width = layout.library_width.unwrap_or(if large { 280.0 } else { 216.0 }).clamp(160.0, 360.0);
-        let (left, border, right) = cut_x(rest, width);
-        made.panes.push((PaneKind::LIBRARY, left));
-        made.splitters.push((Splitter::Library, border));
-        rest = right;
+    let column = layout.right_width.unwrap_or(if area.width() > LARGE { 560.0 } else { COLUMN }).clamp(200.0, 720.0);
+    if numerics {
+        let center = cut_right(&mut made, area, column, Splitter::Right, |made, right| {
+            let rows = [Some(PaneKind::TOLERANCE), Some(PaneKind::STATISTICS)];
+            stack(made, right, rows, layout.right_lower_share, Splitter::RightRows);
+        });
+        made.panes.push((PaneKind::METHODS, center));
+        return made;
     }
     let [upper, lower, right_upper, right_lower] = *layout.places(workspace);
-    let right_left_out = narrow && !workspace.keeps_right_column();
-    if !right_left_out && (right_upper.is_some() || right_lower.is_some()) {
-        let width = layout.right_width.unwrap_or(if large { 560.0 } else { 316.0 }).clamp(200.0, 720.0);
-        let (center, border, right) = cut_x(rest, (rest.width() - width - GAP).max(200.0));
-        made.splitters.push((Splitter::Right, border));
-        stack(&mut made, right, [right_upper, right_lower], layout.right_lower_share, Splitter::RightRows);
-        rest = center;
-    }
-    stack(&mut made, rest, [upper, lower], layout.lower_share, Splitter::Center);
-    if library_left_out && column_over {
-        let width = 216.0_f32.min(rest.width());
-        let max = Pos2::new(rest.left() + width, rest.bottom());
-        made.over = Some((PaneKind::LIBRARY, Rect::from_min_max(rest.min, max)));
-    }
-    if right_left_out && column_over {
-        let width = 316.0_f32.min(rest.width());
-        let min = Pos2::new(rest.right() - width, rest.top());
-        made.over = Some((PaneKind::INSPECTOR, Rect::from_min_max(min, rest.max)));
-    }
+    let right_lower = right_lower.filter(|_| has_settings || workspace != Workspace::Compare);
+    let rows = if card.is_some() { [card, None] } else { [right_upper, right_lower] };
+    let rest = match workspace {
+        Workspace::Compare => compare(&mut made, shown, area, rows, column),
+        Workspace::Rank => {
+            let page = layout.page_width.unwrap_or(area.width() / 3.0).clamp(PAGE, (0.6 * area.width()).max(PAGE));
+            cut_right(&mut made, area, page, Splitter::Page, |made, right| {
+                stack(made, right, rows, 0.5, Splitter::Curve);
+            })
+        }
+        Workspace::Data => cut_right(&mut made, area, column, Splitter::Right, |made, right| {
+            stack(made, right, rows, layout.curve_share, Splitter::Curve);
+        }),
+    };
+    let (share, splitter) = match workspace {
+        Workspace::Data => (layout.text_share, Splitter::Text),
+        _ => (layout.lower_share, Splitter::Center),
+    };
+    stack(&mut made, rest, [upper, lower], share, splitter);
     made
 }
 
-/// Arranges the Figure page of a pane in an area, beside the library where there is room for both.
-pub fn arrange_page(pane: PaneKind, layout: &Layout, area: Rect, was_narrow: bool) -> Arrangement {
-    let mut layout = layout.clone();
-    *layout.places_mut(Workspace::Import) = [Some(pane), None, None, None];
-    // A narrow window has no room for the library there.
-    arrange(Workspace::Import, &layout, area, was_narrow, None, false)
+/// Arranges the columns of Compare, and returns what is left for its views.
+fn compare(made: &mut Arrangement, shown: &Shown<'_>, area: Rect, rows: [Option<PaneKind>; 2], column: f32) -> Rect {
+    let layout = shown.layout;
+    let mut rest = area;
+    if layout.left {
+        let width = layout.left_width.unwrap_or(if area.width() > LARGE { 280.0 } else { 216.0 }).clamp(160.0, 360.0);
+        let (left, border, right) = cut_x(rest, width);
+        made.panes.push((PaneKind::COMPARED, left));
+        made.splitters.push((Splitter::Left, border));
+        rest = right;
+    } else {
+        let (handle, _, right) = cut_x(rest, HANDLE);
+        made.handles.push((Side::Left, handle));
+        rest = right;
+    }
+    let overlaps = made.narrow && (shown.column_over || shown.card.is_some());
+    if overlaps {
+        let min = Pos2::new(rest.right() - COLUMN.min(rest.width()), rest.top());
+        let mut over = Arrangement::default();
+        stack(&mut over, Rect::from_min_max(min, rest.max), rows, layout.right_lower_share, Splitter::RightRows);
+        made.over = over.panes;
+    }
+    if made.narrow || (!layout.right && shown.card.is_none()) {
+        let (center, _, handle) = cut_x(rest, rest.width() - HANDLE - GAP);
+        made.handles.push((Side::Right, handle));
+        rest = center;
+    } else {
+        rest = cut_right(made, rest, column, Splitter::Right, |made, right| {
+            stack(made, right, rows, layout.right_lower_share, Splitter::RightRows);
+        });
+    }
+    if layout.compare[1].is_none() {
+        let cut = rest.bottom() - HANDLE;
+        made.handles.push((Side::Lower, rest.with_min_y(cut)));
+        rest.max.y = cut - GAP;
+    }
+    rest
+}
+
+/// Cuts a column of a width off at the right, fills it, and returns what is left.
+fn cut_right(
+    made: &mut Arrangement,
+    area: Rect,
+    width: f32,
+    splitter: Splitter,
+    fill: impl FnOnce(&mut Arrangement, Rect),
+) -> Rect {
+    let (center, border, right) = cut_x(area, (area.width() - width - GAP).max(200.0));
+    made.splitters.push((splitter, border));
+    fill(made, right);
+    center
 }
 
 /// One pane above the other, or the one there is.
@@ -362,12 +491,29 @@ fn cut_x(area: Rect, width: f32) -> (Rect, Rect, Rect) {
 }
 
 impl Layout {
+    /// Puts a border back.
+    pub fn release(&mut self, splitter: Splitter) {
+        let start = Self::default();
+        match splitter {
+            Splitter::Left => self.left_width = None,
+            Splitter::Right => self.right_width = None,
+            Splitter::Page => self.page_width = None,
+            Splitter::Center => self.lower_share = start.lower_share,
+            Splitter::RightRows => self.right_lower_share = start.right_lower_share,
+            Splitter::Text => self.text_share = start.text_share,
+            Splitter::Curve => self.curve_share = start.curve_share,
+        }
+    }
+
     pub fn drag(&mut self, splitter: Splitter, pointer: Pos2, area: Rect) {
         match splitter {
-            Splitter::Library => self.library_width = Some((pointer.x - area.left()).clamp(160.0, 360.0)),
+            Splitter::Left => self.left_width = Some((pointer.x - area.left()).clamp(160.0, 360.0)),
             Splitter::Right => self.right_width = Some((area.right() - pointer.x).clamp(200.0, 720.0)),
+            Splitter::Page => self.page_width = Some((area.right() - pointer.x).max(PAGE)),
             Splitter::Center => self.lower_share = share(pointer, area),
             Splitter::RightRows => self.right_lower_share = share(pointer, area),
+            Splitter::Text => self.text_share = share(pointer, area),
+            Splitter::Curve => self.curve_share = share(pointer, area),
         }
     }
 }

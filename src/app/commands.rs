@@ -2,6 +2,7 @@
 //! follows to its new names.
 
 use std::cmp::Ordering;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use chromascope_core::query::Shared;
@@ -25,7 +26,7 @@ use crate::scene::Scene;
 use crate::view::RenderMode;
 use crate::view::import::{ImportItem, Stop};
 use crate::view::{PickState, SavedView, Shows, Status};
-use crate::workspaces::{Layout, PaneKind, Workspace};
+use crate::workspaces::{Layout, PaneKind, Side, Slot, Workspace};
 
 impl ChromascopeApp {
     /// Finished dialogs and writes, files that changed.
@@ -33,9 +34,7 @@ impl ChromascopeApp {
         for event in self.files.poll() {
             match event {
                 FileEvent::Open(paths) if std::mem::take(&mut self.view.recorded.opening) => {
-                    self.view.recorded.corners.clear();
-                    paths.first().into_iter().for_each(|path| self.recorded.read_again(path));
-                    self.view.recorded.path = paths.into_iter().next().or(self.view.recorded.path.take());
+                    paths.into_iter().take(1).for_each(|path| self.read_recorded(path));
                 }
                 FileEvent::Open(paths) if self.report_on.is_some() => self.begin_report(&paths),
                 FileEvent::Open(paths) => self.open(paths.into_iter().map(Request::Path).collect()),
@@ -60,8 +59,7 @@ impl ChromascopeApp {
     }
 
     fn carry_out_one(&mut self, ctx: &egui::Context, command: Command) {
-        let is_library = matches!(command, Command::FocusSearch | Command::TogglePane(PaneKind::LIBRARY));
-        if command.shows_panes() || (is_library && self.arrangement.narrow) {
+        if command.shows_panes() || command == Command::FocusSearch {
             self.view.page = None;
         }
         match command {
@@ -79,6 +77,10 @@ impl ChromascopeApp {
             }
             Command::Open | Command::OpenRecorded | Command::OpenFolder | Command::Report(_) => {
                 self.ask_for_files(&command);
+            }
+            Command::ReadRecorded(path) => {
+                self.read_recorded(path);
+                self.go_to(ctx, PaneKind::RECORDED);
             }
             Command::StopReport => {
                 self.stop_report();
@@ -126,14 +128,12 @@ impl ChromascopeApp {
             Command::CopyNumbers(pane) => self.copy_numbers(ctx, self.pictured(pane)),
             Command::Show(workspace) => self.show_workspace(workspace),
             Command::Maximize(pane) => self.maximize(pane),
-            Command::TogglePane(PaneKind::LIBRARY) if self.library_left_out() => self.view.inspector_over ^= true,
-            Command::TogglePane(pane) => self.toggle_pane(pane),
-            Command::ToggleInspector => self.toggle_inspector(),
+            Command::Toggle(side) => self.toggle(side),
             Command::ResetView => self.view.reset_plots = true,
             Command::ResetLayout => {
                 self.view.saved.layout = Layout::default();
                 self.view.saved.tables = SavedView::default().tables;
-                self.view.maximized = None;
+                (self.view.maximized, self.view.card) = (None, None);
             }
             Command::SetTheme(preference) => ctx.set_theme(preference),
             Command::Look(key, place) => self.view.choose(key, place),
@@ -142,12 +142,7 @@ impl ChromascopeApp {
             Command::Tour(to) => self.tour(to),
             Command::ToggleAbout => self.view.about = !self.view.about,
             Command::FocusSearch if self.view.help.page.is_some() => self.view.help.focus_search = true,
-            Command::FocusSearch => {
-                self.view.saved.layout.library = true;
-                self.view.maximized = None;
-                self.view.inspector_over |= self.library_left_out();
-                self.view.focus_search = true;
-            }
+            Command::FocusSearch => self.focus_search(),
             Command::FindAnything => self.view.palette = Some(PickState::default()),
             Command::FocusTemperature => self.view.focus_temperature = true,
             Command::ToggleSource(index) => self.toggle_source(index),
@@ -159,6 +154,21 @@ impl ChromascopeApp {
             Command::Seek(pane, control) => self.seek(ctx, pane, control),
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
         }
+    }
+
+    /// Leads to the filter of the library, or outside Data to the search for cameras.
+    fn focus_search(&mut self) {
+        if self.view.saved.workspace != Workspace::Data {
+            self.view.show(PaneKind::COMPARED);
+            self.view.adding = true;
+        }
+        (self.view.maximized, self.view.focus_search) = (None, true);
+    }
+
+    fn read_recorded(&mut self, path: PathBuf) {
+        self.view.recorded.corners.clear();
+        self.recorded.read_again(&path);
+        self.view.recorded.path = Some(path);
     }
 
     fn copy_card(&mut self, ctx: &egui::Context, pane: PaneKind) {
@@ -189,7 +199,7 @@ impl ChromascopeApp {
             Action::Imported(Use(kind, _)) => matches!(kind, SetKind::Illuminant | SetKind::Filter),
             _ => false,
         };
-        let is_seen = self.arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::RENDER);
+        let is_seen = self.arrangement.shows(PaneKind::RENDER);
         if is_light && is_seen && self.history.document().render.sunlight {
             return Action::ForPictures(Box::new(action));
         }
@@ -211,32 +221,27 @@ impl ChromascopeApp {
 
     pub(super) fn show_workspace(&mut self, workspace: Workspace) {
         self.view.saved.workspace = workspace;
-        self.view.maximized = None;
-        self.view.inspector_over = false;
+        (self.view.maximized, self.view.card) = (None, None);
+        (self.view.column_over, self.view.numerics) = (false, false);
         // Keys and exports never refer to a pane that is not visible.
-        let shown = self.view.focused.is_some_and(|pane| self.view.saved.layout.shows(workspace, pane));
-        if !shown {
+        if !self.view.focused.is_some_and(|pane| self.view.is_shown(pane)) {
             self.view.focused = self.view.saved.layout.places(workspace)[0];
         }
     }
 
-    fn toggle_pane(&mut self, pane: PaneKind) {
-        let workspace = self.view.saved.workspace;
-        self.view.saved.layout.toggle(workspace, pane);
-        self.view.maximized = None;
-    }
-
-    /// In a narrow window the inspector overlaps the rest; else it has its own place.
-    fn toggle_inspector(&mut self) {
-        if self.arrangement.narrow && !self.view.saved.workspace.keeps_right_column() {
-            self.view.inspector_over ^= true;
-        } else {
-            self.toggle_pane(PaneKind::INSPECTOR);
+    /// Shows what is at a side of Compare, or hides it. In a narrow window the right column overlaps the rest.
+    fn toggle(&mut self, side: Side) {
+        let view = &mut self.view;
+        if view.saved.workspace != Workspace::Compare || view.numerics {
+            return view.say("Columns are hidden in Compare only.");
         }
-    }
-
-    fn library_left_out(&self) -> bool {
-        self.arrangement.narrow && self.view.saved.workspace.keeps_right_column()
+        view.maximized = None;
+        match side {
+            Side::Left => view.saved.layout.left ^= true,
+            Side::Right if self.arrangement.narrow => view.column_over ^= true,
+            Side::Right => view.saved.layout.right ^= true,
+            Side::Lower => view.saved.layout.toggle_lower(),
+        }
     }
 
     fn toggle_source(&mut self, index: usize) {
@@ -299,12 +304,12 @@ impl ChromascopeApp {
             self.view.say("Measuring stopped. Earlier results are unchanged.");
             return;
         }
-        let rendering = self.arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::RENDER);
+        let rendering = self.arrangement.shows(PaneKind::RENDER);
         let view = &mut self.view;
         if view.palette.take().is_some() || view.help.escape() || std::mem::take(&mut view.about) {
             return;
         }
-        if view.page.take().is_some() || std::mem::take(&mut view.inspector_over) {
+        if view.page.take().is_some() || std::mem::take(&mut view.column_over) {
             return;
         }
         if rendering && self.render_service.is_waiting() && !view.render.cancelled {
@@ -312,7 +317,7 @@ impl ChromascopeApp {
             view.say("Rendering stopped; the pictures so far are unchanged.");
             return;
         }
-        if view.cursor.take().is_some() {
+        if view.cursor.take().is_some() || view.card.take().is_some() || std::mem::take(&mut view.adding) {
             return;
         }
         if view.selected.take().is_some() || (rendering && view.render.pinned.take().is_some()) {
@@ -324,6 +329,9 @@ impl ChromascopeApp {
         let mode = &mut view.saved.render.mode;
         if rendering && *mode != RenderMode::Grid {
             *mode = RenderMode::Grid;
+            return;
+        }
+        if std::mem::take(&mut view.numerics) {
             return;
         }
         view.by_keyboard = false;
@@ -339,7 +347,7 @@ impl ChromascopeApp {
         let scene = Scene { document, catalog: &self.catalog, results: &self.results };
         let own = self.meshes.chosen(&document.render.mesh);
         Profiler::run(&self.later, SceneRunJob::of(&scene, own.as_ref(), self.view.saved.render.orbit));
-        self.view.saved.workspace = Workspace::Numerics;
+        self.view.numerics = true;
         if matches!(self.view.shows, Shows::Bench(_)) {
             self.view.shows = Shows::default();
         }
@@ -372,21 +380,17 @@ impl ChromascopeApp {
         if view.maximized != Some(pane) {
             view.maximized = None;
         }
-        if !view.saved.layout.shows(view.saved.workspace, pane) {
-            if let Some(home) = Layout::home(pane) {
-                view.saved.workspace = home;
-            }
-            if !view.saved.layout.shows(view.saved.workspace, pane) {
-                view.saved.layout.toggle(view.saved.workspace, pane);
-            }
-        }
-        let left_out = if view.saved.workspace.keeps_right_column() { PaneKind::LIBRARY } else { PaneKind::INSPECTOR };
-        view.inspector_over = self.arrangement.narrow && pane == left_out;
+        view.show(pane);
+        view.column_over = matches!(pane.slot(), Slot::Selection | Slot::Settings);
         self.give_keyboard(ctx, pane);
     }
 
     fn seek(&mut self, ctx: &egui::Context, pane: PaneKind, control: &'static str) {
         self.go_to(ctx, pane);
+        if panes::by_kind(pane).is_some_and(|pane| pane.settings.is_some()) {
+            self.view.settings_of = Some(pane);
+            self.go_to(ctx, PaneKind::SETTINGS);
+        }
         panes::widgets::seek(ctx, control);
     }
 

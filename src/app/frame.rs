@@ -7,6 +7,7 @@ use egui::{
 };
 
 use super::{ChromascopeApp, path_prompt};
+use crate::command::Command;
 use crate::files::{PersistentMessage, PersistentMessageKind};
 use crate::panes;
 use crate::panes::context::PaneContext;
@@ -14,7 +15,7 @@ use crate::panes::widgets::lines;
 use crate::scene::Scene;
 use crate::theme::{self, FOCUS, Theme, UNIT};
 use crate::view::View;
-use crate::workspaces::{Splitter, arrange, arrange_page};
+use crate::workspaces::{Shown, Side, Slot, Splitter, arrange};
 
 /// Height of a notice, and width of the button that takes it away.
 const NOTICE: f32 = 24.0;
@@ -40,7 +41,7 @@ impl ChromascopeApp {
         };
         let bar = |ui: &mut Ui, id, height, top| bar(ui, &theme, (id, height), top);
         let menu = bar(ui, "menu", 30.0, true);
-        let conditions = bar(ui, "conditions", 48.0, true);
+        let conditions = bar(ui, "conditions", panes::scene_bar::HEIGHT, true);
         let tour = context.view.tour.map(|_| bar(ui, "tour", panes::help::TOUR, true));
         let standing: Vec<(PersistentMessage, Rect)> = self
             .files
@@ -61,23 +62,24 @@ impl ChromascopeApp {
                 self.files.dismiss(standing.kind);
             }
         }
-        let saved = &context.view.saved;
         let page = context.view.page;
-        self.arrangement = match page {
-            Some(pane) => arrange_page(pane, &saved.layout, area, self.arrangement.narrow),
-            None => arrange(
-                saved.workspace,
-                &saved.layout,
-                area,
-                self.arrangement.narrow,
-                context.view.maximized,
-                context.view.inspector_over,
-            ),
+        let of = context.view.settings_view().and_then(|view| context.pane(view));
+        let shown = Shown {
+            workspace: context.view.saved.workspace,
+            layout: &context.view.saved.layout,
+            maximized: page.or(context.view.maximized),
+            card: context.view.card,
+            numerics: context.view.numerics,
+            has_settings: of.is_some_and(|view| view.settings.is_some()),
+            column_over: context.view.column_over,
         };
+        self.arrangement = arrange(&shown, area, self.arrangement.narrow);
         // Keys never mean a pane that is out of sight.
-        let mut shown = self.arrangement.panes.iter().chain(&self.arrangement.over).map(|(pane, _)| *pane);
-        if page.is_none() && context.view.focused.is_some_and(|focused| !shown.any(|pane| pane == focused)) {
+        if page.is_none() && context.view.focused.is_some_and(|focused| !self.arrangement.shows(focused)) {
             context.view.focused = context.view.maximized;
+        }
+        if let Some(view) = context.view.focused.filter(|pane| pane.slot() == Slot::View) {
+            context.view.settings_of = Some(view);
         }
         for (pane, rect) in self.arrangement.panes.clone() {
             if page == Some(pane) {
@@ -89,9 +91,12 @@ impl ChromascopeApp {
         for (splitter, rect) in self.arrangement.splitters.clone() {
             drag_border(ui, splitter, rect, area, &mut context);
         }
-        if let Some((pane, rect)) = self.arrangement.over {
-            let layer =
-                egui::Area::new(egui::Id::unique("column over")).fixed_pos(rect.min).order(egui::Order::Foreground);
+        for (side, rect) in self.arrangement.handles.clone() {
+            handle(ui, side, rect, &mut context);
+        }
+        for (pane, rect) in self.arrangement.over.clone() {
+            let id = egui::Id::unique(("column over", pane));
+            let layer = egui::Area::new(id).fixed_pos(rect.min).order(egui::Order::Middle);
             layer.show(ui.ctx(), |ui| {
                 ui.set_min_size(rect.size());
                 panes::show(ui, pane, rect, &mut context);
@@ -136,17 +141,32 @@ fn drag_border(ui: &mut Ui, splitter: Splitter, rect: Rect, area: Rect, context:
     }
     let layout = &mut context.view.saved.layout;
     if response.double_clicked() {
-        let fresh = crate::workspaces::Layout::default();
-        match splitter {
-            Splitter::Library => layout.library_width = None,
-            Splitter::Right => layout.right_width = None,
-            Splitter::Center => layout.lower_share = fresh.lower_share,
-            Splitter::RightRows => layout.right_lower_share = fresh.right_lower_share,
-        }
+        layout.release(splitter);
     } else if let Some(at) = response.interact_pointer_pos().filter(|_| response.dragged()) {
         layout.drag(splitter, at, area);
     }
     response.on_hover_and_drag_cursor(if upright { CursorIcon::ResizeHorizontal } else { CursorIcon::ResizeVertical });
+}
+
+/// The handle of what is hidden at a side: a click shows it.
+fn handle(ui: &Ui, side: Side, rect: Rect, context: &mut PaneContext<'_>) {
+    let (words, turn) = match side {
+        Side::Left => ("Show the compared sensors (L)", Vec2::new(1.0, 0.0)),
+        Side::Right => ("Show the right column (I)", Vec2::new(-1.0, 0.0)),
+        Side::Lower => ("Show the lower view", Vec2::new(0.0, -1.0)),
+    };
+    let response = ui.interact(rect, ui.scope_id().with(("handle", side)), Sense::click());
+    lines::labeled(&response, egui::Role::Button, words);
+    let theme = &context.theme;
+    let lit = response.hovered() || response.has_focus();
+    ui.painter().rect_filled(rect, 0.0, if lit { theme.hover } else { theme.control });
+    let (at, stroke) = (rect.center(), Stroke::new(1.5, theme.text));
+    for wing in [turn.rot90(), -turn.rot90()] {
+        ui.painter().line_segment([at + 2.0 * turn, at - 2.0 * turn + 5.0 * wing], stroke);
+    }
+    if response.on_hover_text(words).clicked() {
+        context.push(Command::Toggle(side));
+    }
 }
 
 /// While files hang over the window: where they may fall.

@@ -11,6 +11,7 @@ use crate::action::{Action, ImportedAction, RenderAction};
 use crate::catalog::import::{Imported, imported};
 use crate::catalog::likeness::Likeness;
 use crate::catalog::opened::{CLIPBOARD, OpenFile, OpenedEvent, Request, Why};
+use crate::catalog::recorded_store::PICTURES;
 use crate::command::Command;
 use crate::document::imported::{Fingerprint, ImportOverrides, ImportedSet, Role};
 use crate::document::render::MeshChoice;
@@ -20,6 +21,9 @@ use crate::panes::import;
 use crate::view::import::{ImportItem, of_a_kind};
 use crate::view::{Offer, Status, Weight};
 use crate::workspaces::{PaneKind, Workspace};
+
+/// Endings of pictures that hold no linear values.
+const OTHER_PICTURES: [&str; 11] = ["jpg", "jpeg", "heic", "dng", "nef", "cr2", "cr3", "arw", "raf", "orf", "rw2"];
 
 /// What came of reading sets again.
 #[derive(Default)]
@@ -87,6 +91,9 @@ impl ChromascopeApp {
         for file in dropped {
             let path = file.path().to_path_buf();
             if path.exists() {
+                if self.is_picture(&path) {
+                    continue;
+                }
                 requests.push(Request::Path(path));
                 continue;
             }
@@ -97,6 +104,28 @@ impl ChromascopeApp {
             }
         }
         self.open(requests);
+    }
+
+    /// Leads a dropped picture to Data, and says what can be done with it.
+    fn is_picture(&mut self, path: &Path) -> bool {
+        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
+        let is_raw = PICTURES.contains(&ending.as_str());
+        if !is_raw && !OTHER_PICTURES.contains(&ending.as_str()) {
+            return false;
+        }
+        self.end_tour();
+        self.show_workspace(Workspace::Data);
+        let name = file_name(path);
+        if is_raw {
+            let can =
+                "the raw values of a 6 × 4 chart in it, if it is linear with 16 bits, are compared with every camera";
+            self.view.say(format!("{name} is a picture: {can}."));
+            self.view.offer(vec![Offer::Raw(path.to_owned())], true);
+        } else {
+            let can = "develop it to a linear 16-bit TIFF, whose chart can be compared with every camera";
+            self.view.fail(format!("{name}: pictures of this kind are not read; {can}."));
+        }
+        true
     }
 
     pub(super) fn take_opened(&mut self) {
@@ -129,7 +158,7 @@ impl ChromascopeApp {
                         |file: &Fingerprint| self.opened.file(*file).is_some_and(|file| file.origin.name == CLIPBOARD);
                     if let Some(pasted) = files.iter().copied().find(is_pasted) {
                         self.view.import.select(ImportItem::File(pasted));
-                        self.show_workspace(Workspace::Import);
+                        self.show_workspace(Workspace::Data);
                     }
                     // An earlier success must not stand beside it.
                     self.view.status = Status::default();
@@ -209,7 +238,7 @@ impl ChromascopeApp {
         let pasted = brought.iter().position(|set| set.file == CLIPBOARD);
         if let Some(item) = pasted.and_then(|index| items.get(index)) {
             self.view.import.select(item.clone());
-            self.show_workspace(Workspace::Import);
+            self.show_workspace(Workspace::Data);
         }
     }
 
@@ -254,7 +283,7 @@ impl ChromascopeApp {
         let now: Vec<_> = place.and_then(|place| self.history.document().own.get(place)).cloned().into_iter().collect();
         let offers = if role == set.role { Vec::new() } else { self.offers(&now) };
         if !offers.is_empty() {
-            self.view.say(format!("{}: {role}, in the Library.", now[0].name));
+            self.view.say(format!("{}: {role}, in Data.", now[0].name));
             self.view.offer(offers, false);
         }
     }
@@ -280,9 +309,8 @@ impl ChromascopeApp {
         }
         self.view.import.select(item);
         self.view.import.line = line;
-        self.view.saved.workspace = Workspace::Import;
-        self.view.maximized = None;
-        self.view.inspector_over = false;
+        self.show_workspace(Workspace::Data);
+        self.view.show(PaneKind::INTERPRETATION);
     }
 
     /// Makes a set of each of these parts of a file; a choice of curves belongs to another part and is not applied.
@@ -488,7 +516,7 @@ fn opened_again(again: &[(&ImportedSet, &Shared<ImportedSet>)], count: usize) ->
 fn put_to_use(before: &Document, after: &Document, brought: &[Shared<ImportedSet>]) -> String {
     if let [one] = brought {
         let waits = SetKind::of_own(one).used_as().is_some() && !after.uses(SetKind::of_own(one), &one.name);
-        return if waits { "In the Library; the conditions are unchanged.".to_owned() } else { String::new() };
+        return if waits { "In Data; the conditions are unchanged.".to_owned() } else { String::new() };
     }
     let cameras = brought.iter().filter(|set| set.role == Role::Camera).count();
     let shown = after.compared.len() - before.compared.len();
@@ -497,7 +525,7 @@ fn put_to_use(before: &Document, after: &Document, brought: &[Shared<ImportedSet
         (shown, cameras) if shown == cameras => format!("{shown} added to the comparison"),
         (shown, cameras) => format!("{shown} of {cameras} cameras added to the comparison"),
     };
-    format!("{shown}; illuminant and patches are unchanged. Choose others in the Library.")
+    format!("{shown}; illuminant and patches are unchanged. Choose others in Data.")
 }
 
 impl ChromascopeApp {
@@ -517,7 +545,7 @@ impl ChromascopeApp {
                     self.view.remember_file(path);
                     self.history.apply(&Action::Render(action));
                     self.history.end_gesture();
-                    self.view.saved.workspace = Workspace::Render;
+                    self.view.show(PaneKind::RENDER);
                     self.view.maximized = None;
                     self.view.say(message);
                 }

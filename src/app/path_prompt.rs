@@ -19,9 +19,11 @@ pub(super) fn show(ui: &Ui, theme: &Theme, files: &mut Files) {
     let Some(prompt) = files.prompt_mut() else { return };
     let title = prompt.save.as_ref().map_or_else(|| "Open".to_owned(), |request| format!("Save {}", request.what));
     let (mut step, mut open) = (None, true);
-    widgets::window(title, "path prompt", (Align2::CENTER_TOP, Vec2::new(0.0, 96.0)))
+    let shown = widgets::window(title, "path prompt", (Align2::CENTER_TOP, Vec2::new(0.0, 96.0)))
         .open(&mut open)
         .show(ui.ctx(), |ui| step = content(ui, theme, prompt));
+    // A path is not lost by a press beside it.
+    let _beside = shown.map(|shown| widgets::alone(ui.ctx(), &shown.response));
     // Esc is handled by the program: it closes the front overlay.
     match step {
         _ if !open => *files.prompt_mut() = None,

@@ -88,10 +88,13 @@ impl ChromascopeApp {
             let [width, height] = card::figure_size();
             let size = [width, height - chromaticity::STRIP];
             let figure = chromaticity::figure_sized(&scene, &look, FigureRoom::default(), size);
-            Figure { legend_place: LegendPlace::Inside, ..figure }
+            // The swatches' heads are its legend.
+            Figure { legend_place: LegendPlace::None, ..figure }
         } else {
             shown
         };
+        let title = swatches::headline(&scene).unwrap_or_else(|| figure.title.clone());
+        let figure = Figure { title, ..figure };
         Some(Card { figure, swatches })
     }
 
@@ -160,6 +163,10 @@ impl ChromascopeApp {
             }
         };
         let report = match on {
+            ReportOn::Comparison => {
+                let document = self.history.document();
+                Report::on_comparison(document, Ok(self.meshes.chosen(&document.render.mesh)), PIXELS)
+            }
             ReportOn::Paper => Report::new(Start::Paper.document(), false, PIXELS),
             ReportOn::Document => Report::of_document(self.history.document()),
         };

@@ -161,8 +161,13 @@ impl ChromascopeApp {
         }
         let name = source.name();
         let mut newer: Vec<String> = newer.map(|newer| format!("It was {newer}")).into_iter().collect();
+        let earlier = session::peek_view(&document);
         if let Some((mut view, refused)) = session::take_view::<SavedView>(&mut document) {
-            view.layout.retain(|pane| panes::by_kind(pane).is_some());
+            view.mend(|pane| panes::by_kind(pane).is_some());
+            if let Some(earlier) = &earlier {
+                view.open_earlier(earlier);
+            }
+            (self.view.numerics, self.view.card) = (false, None);
             self.view.saved.take_session(view);
             if !refused.is_empty() {
                 newer.push(format!("Parts of its view are not understood: {}.", refused.join(", ")));

@@ -17,7 +17,7 @@ use crate::view::SavedView;
 const APP_ID: &str = "chromascope";
 
 const WITHOUT: &str = "Without a window, `chromascope locus`, `patches`, `compare`, `light`, `matrix`, `figure`, `report`, `render`, \
-                       `identify`, `inspect`, `bench` and `list` do the same.";
+                       `identify`, `recover`, `inspect`, `bench` and `list` do the same.";
 
 #[derive(Debug, thiserror::Error)]
 pub enum WindowError {
@@ -67,7 +67,10 @@ pub fn run(paths: Vec<PathBuf>, start: Instant) -> Result<(), WindowError> {
         Box::new(move |cc| {
             let known: Option<SavedView> = cc.storage.and_then(|s| eframe::get_value(s, LAYOUT_KEY));
             let mut saved = known.unwrap_or_else(|| SavedView::first(files::reduces_motion()));
-            saved.mend();
+            let earlier = cc.storage.and_then(|s| eframe::get_value(s, LAYOUT_KEY));
+            if let Some(earlier) = &earlier {
+                saved.open_earlier(earlier);
+            }
             let history = History::new(kept.saved_document());
             let mut app = ChromascopeApp::new(&cc.egui_ctx, history, saved, kept);
             (app.place, app.first_frame) = (WindowPlace::restored(cc.storage), Some(start));

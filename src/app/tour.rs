@@ -5,7 +5,7 @@ use crate::action::Action;
 use crate::action::history::History;
 use crate::command::{Command, TourMove};
 use crate::plot_item::PlotItem;
-use crate::view::tour::STEPS;
+use crate::view::tour::Tour;
 use crate::view::{DiagramFit, SavedView};
 use crate::workspaces::{Layout, PaneKind};
 
@@ -22,12 +22,12 @@ impl ChromascopeApp {
     pub(super) fn tour(&mut self, to: TourMove) {
         let now = self.view.tour;
         match (to, now) {
-            (TourMove::Begin, _) => {
+            (TourMove::Begin(tour), _) => {
                 self.begin_tour();
-                self.show_step(0);
+                self.show_step(tour, 0);
             }
-            (TourMove::Next, Some(step)) if step + 1 < STEPS.len() => self.show_step(step + 1),
-            (TourMove::Back, Some(step)) => self.show_step(step.saturating_sub(1)),
+            (TourMove::Next, Some((tour, step))) if step + 1 < tour.steps().len() => self.show_step(tour, step + 1),
+            (TourMove::Back, Some((tour, step))) => self.show_step(tour, step.saturating_sub(1)),
             (TourMove::Next | TourMove::End, _) => self.end_tour(),
             (TourMove::Back, None) => {}
         }
@@ -49,18 +49,20 @@ impl ChromascopeApp {
         });
     }
 
-    fn show_step(&mut self, index: usize) {
+    fn show_step(&mut self, tour: Tour, index: usize) {
         let Some(interrupted) = &self.interrupted else { return };
-        let step = &STEPS[index];
-        self.history = History::new(step.document(&interrupted.history.document().own));
+        let step = &tour.steps()[index];
+        self.history = History::new(tour.document(step, &interrupted.history.document().own));
         let view = &mut self.view;
-        view.tour = Some(index);
+        view.tour = Some((tour, index));
         view.saved.layout = Layout::default();
         view.saved.tables.clear();
         view.saved.diagram_fit = DiagramFit::Data;
         view.saved.render = crate::view::RenderLook::default();
-        view.saved.workspace = step.workspace;
+        (view.card, view.numerics, view.adding) = (None, false, false);
+        view.show(step.pane);
         view.maximized = step.maximized;
+        view.page = step.is_printed.then_some(step.pane);
         view.selected = step.selected();
         view.pinned.clear();
         view.focused = None;
@@ -77,7 +79,7 @@ impl ChromascopeApp {
         saved.import.clone_from(&view.saved.import);
         self.history = history;
         (view.saved, view.selected, view.pinned) = (saved, selected, pinned);
-        (view.maximized, view.focused, view.tour) = (maximized, focused, None);
+        (view.maximized, view.focused, view.tour, view.page) = (maximized, focused, None, None);
         view.reset_plots = true;
         view.say("The tour is over; your document is as it was.");
     }

@@ -72,7 +72,7 @@ impl Brush<'_> {
     /// A line's pen, wider for what is pointed at or chosen.
     fn pen(&self, mark: &Mark) -> Option<Pen> {
         let wider = match self.emphasis {
-            Emphasis::Hovered => 1.0,
+            Emphasis::Hovered | Emphasis::Pointed => 1.0,
             Emphasis::Selected | Emphasis::Related => 1.5,
             Emphasis::Normal | Emphasis::Faded => 0.0,
         };
@@ -146,7 +146,8 @@ impl Brush<'_> {
     }
 
     fn point(&self, mark: &Mark, at: Pos2, marker: Marker, radius: f32) {
-        let rim = if self.emphasis == Emphasis::Related { mark.stroke } else { self.pen(mark) };
+        let rim =
+            if matches!(self.emphasis, Emphasis::Related | Emphasis::Pointed) { mark.stroke } else { self.pen(mark) };
         let fill = mark.fill.map_or(Color32::TRANSPARENT, |ink| self.color(ink));
         let rim_stroke = rim.map_or(Stroke::NONE, |pen| Stroke::new(pen.width as f32, self.color(pen.ink)));
         if let Some(halo) = mark.halo.filter(|_| self.emphasis != Emphasis::Faded) {
@@ -158,7 +159,7 @@ impl Brush<'_> {
         let width = match self.emphasis {
             Emphasis::Hovered => 1.0,
             Emphasis::Selected => 2.0,
-            Emphasis::Normal | Emphasis::Related | Emphasis::Faded => return,
+            Emphasis::Normal | Emphasis::Pointed | Emphasis::Related | Emphasis::Faded => return,
         };
         let ink = mark.stroke.map(|pen| pen.ink).or(mark.fill).unwrap_or(InkRole::Text.into());
         let ring = |width, ink| self.painter.circle_stroke(at, radius + RING, Stroke::new(width, self.theme.ink(ink)));
@@ -190,7 +191,7 @@ impl Brush<'_> {
                 let stroke = Stroke::new(1.0, self.theme.on_surround);
                 self.painter.rect_stroke(rect, 0.0, stroke, StrokeKind::Outside);
             }
-            Emphasis::Normal | Emphasis::Faded => {}
+            Emphasis::Normal | Emphasis::Pointed | Emphasis::Faded => {}
         }
     }
 

@@ -10,6 +10,7 @@ use super::context::{Pane, PaneContext};
 use crate::action::{Action, SceneAction};
 use crate::document::{Diagram, FIT_TARGET, SetKind};
 use crate::figures::chromaticity::{self, Built};
+use crate::figures::look::DifferencePlane;
 use crate::figures::strip;
 use crate::paint::{self, Emphasis, PlotOptions};
 use crate::panes::widgets;
@@ -20,12 +21,18 @@ use crate::workspaces::PaneKind;
 
 const REACH: f32 = 10.0;
 const STRIP: f32 = 124.0;
+/// Height of the cameras' differences.
+const MULTIPLES: f32 = 136.0;
 /// Below this height of the diagram there is no strip.
 const WITH_STRIP: f32 = 350.0;
 const OVERVIEW: Vec2 = Vec2::new(96.0, 104.0);
 
-pub const PANE: Pane =
-    Pane::new(PaneKind::CHROMATICITY, "Chromaticity", show).figure(&chromaticity::KIND).under_conditions().table();
+pub const PANE: Pane = Pane::new(PaneKind::CHROMATICITY, "Chromaticity", show)
+    .tab("Diagram")
+    .settings(settings)
+    .figure(&chromaticity::KIND)
+    .under_conditions()
+    .table();
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::pane(ui, &PANE, rect, context, switches);
@@ -34,11 +41,16 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         return;
     }
     let body = widgets::lines::caution(ui, body, context);
-    let strip_height = if body.height() >= WITH_STRIP { STRIP } else { 0.0 };
+    let multiples = context.scene.document.overlays.multiples;
+    let below = if multiples { MULTIPLES } else { STRIP };
+    let strip_height = if body.height() >= WITH_STRIP { below } else { 0.0 };
     let cut = body.bottom() - strip_height;
     diagram(ui, body.with_max_y(cut), context);
-    if strip_height > 0.0 {
-        show_strip(ui, body.with_min_y(cut + UNIT), context);
+    let place = body.with_min_y(cut + UNIT);
+    if strip_height > 0.0 && multiples {
+        widgets::differences::plots(ui, place, DifferencePlane::UvPrime, context);
+    } else if strip_height > 0.0 {
+        show_strip(ui, place, context);
     }
 }
 
@@ -52,19 +64,19 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
         context.view.reset_plots = true;
         ui.ctx().request_repaint();
     }
-    ui.add_space(UNIT);
-    ui.menu_button("Show", |ui| overlays(ui, context)).response.on_hover_text("Elements of the diagram");
 }
 
-fn overlays(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let before = context.scene.document.overlays;
-    let mut overlays = before;
-    for (on, words) in overlays.labeled() {
-        ui.checkbox(on, words);
-    }
-    if overlays != before {
-        context.push(Action::Scene(SceneAction::SetOverlays(overlays)));
-    }
+fn settings(ui: &mut Ui, body: Rect, context: &mut PaneContext<'_>) {
+    widgets::scroll(ui, (PaneKind::SETTINGS, "show"), body, context, |ui, context| {
+        let before = context.scene.document.overlays;
+        let mut overlays = before;
+        for (on, words) in overlays.labeled() {
+            ui.checkbox(on, words);
+        }
+        if overlays != before {
+            context.push(Action::Scene(SceneAction::SetOverlays(overlays)));
+        }
+    });
 }
 
 fn diagram(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
@@ -177,15 +189,7 @@ fn tooltip(built: &Built, shown: &paint::PlotOutput, pointer: Pos2, lines: &[Str
     let Some((align, gap, _)) = quarters.into_iter().min_by_key(cost) else { return };
     let mut tooltip = Tooltip::for_enabled(&shown.response).gap(0.0);
     tooltip.popup = tooltip.popup.at_position(pointer + gap).align(align).align_alternatives(&[]);
-    tooltip.show(|ui| {
-        for (index, line) in lines.iter().enumerate() {
-            if index == 0 {
-                ui.strong(line);
-            } else {
-                ui.label(line);
-            }
-        }
-    });
+    tooltip.show(|ui| widgets::told(ui, lines));
 }
 
 /// The correlated color temperature of a color and its distance from that blackbody, for the observer of the diagram; `None`
@@ -227,7 +231,7 @@ fn say_refusals(ui: &Ui, rect: Rect, built: &Built, context: &PaneContext<'_>) {
     }
     if context.scene.sources().iter().all(|source| !source.visible) {
         let font = egui::FontId::proportional(crate::theme::HEADING);
-        painter.text(rect.center(), Align2::CENTER_CENTER, "Tick a camera in the Library.", font, theme.text);
+        painter.text(rect.center(), Align2::CENTER_CENTER, "Add a camera at the left.", font, theme.text);
     }
 }
 
@@ -280,11 +284,9 @@ fn show_strip(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
                 lines.push(format!("{}: {distance}{mark}", source.label));
             }
         }
-        let balance = context.scene.locus_balance();
-        lines.push(format!("Signals normalized to {balance}: the minima (rings) follow it."));
-        lines.push("Drag to set the temperature.".to_owned());
         if !response.is_pointer_button_down_on() {
-            widgets::read_at_pointer(&response, &lines);
+            let line = Rect::from_x_y_ranges(at.x..=at.x, rect.y_range());
+            widgets::read_beside(&response, line, [RectAlign::TOP, RectAlign::BOTTOM], &lines);
         }
     }
 }

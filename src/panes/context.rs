@@ -28,22 +28,36 @@ use crate::workspaces::PaneKind;
 pub struct Pane {
     pub kind: PaneKind,
     pub title: &'static str,
-    pub show: fn(&mut Ui, Rect, &mut PaneContext<'_>),
+    /// Its title among the tabs of its slot.
+    pub tab: &'static str,
+    pub show: Show,
     /// Its figure as it is saved; `None` for a pane without one.
     pub figure: Option<&'static FigureKind>,
     /// The figure's numbers depend on the document's conditions, and are written with them.
     pub under_conditions: bool,
     /// The pane can show its numbers as a table instead.
     pub table: bool,
+    /// What the right column offers while the pane is the view that has the focus.
+    pub settings: Option<Show>,
 }
 
+pub type Show = fn(&mut Ui, Rect, &mut PaneContext<'_>);
+
 impl Pane {
-    pub const fn new(kind: PaneKind, title: &'static str, show: fn(&mut Ui, Rect, &mut PaneContext<'_>)) -> Self {
-        Self { kind, title, show, figure: None, under_conditions: false, table: false }
+    pub const fn new(kind: PaneKind, title: &'static str, show: Show) -> Self {
+        Self { kind, title, tab: title, show, figure: None, under_conditions: false, table: false, settings: None }
     }
 
     pub const fn figure(self, kind: &'static FigureKind) -> Self {
         Self { figure: Some(kind), ..self }
+    }
+
+    pub const fn tab(self, tab: &'static str) -> Self {
+        Self { tab, ..self }
+    }
+
+    pub const fn settings(self, settings: Show) -> Self {
+        Self { settings: Some(settings), ..self }
     }
 
     pub const fn under_conditions(self) -> Self {

@@ -15,7 +15,8 @@ use crate::panes::widgets;
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
-pub const PANE: Pane = Pane::new(PaneKind::CORRECTION, "Correction", show).figure(&figure::KIND).under_conditions();
+pub const PANE: Pane =
+    Pane::new(PaneKind::CORRECTION, "Correction", show).tab("Matrix").figure(&figure::KIND).under_conditions();
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     widgets::scrolling_pane(ui, &PANE, rect, context, |ui, context| {
@@ -126,7 +127,7 @@ fn between(ui: &mut Ui, file: &CorrectionFile, context: &mut PaneContext<'_>) {
     let Some(panel) = figure::panel(file, [f64::from(size.x), f64::from(size.y)]) else { return };
     section(ui, "Blackbodies between the two lights, by ForwardMatrix", None, "");
     ui.horizontal_wrapped(|ui| {
-        for (name, role) in figure::key() {
+        for (name, role) in figure::key(file) {
             ui.label(RichText::new(name).small().color(context.theme.ink(chromascope_figure::Ink::new(role))));
         }
     });

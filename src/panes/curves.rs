@@ -20,7 +20,7 @@ struct LastDrawn(Option<CurveCache>);
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::body(ui, &PANE, rect, context, |_, _| {});
     let Some(shown) = context.import_selection() else {
-        sentence(ui, body, "Drop files here.", context.theme.weak);
+        sentence(ui, body, "No curves.", context.theme.weak);
         return;
     };
     if shown.file.is_some() && !shown.is_fresh() {
@@ -29,8 +29,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let kept = CurveCache::of(&shown, context.states.of::<LastDrawn>().0.take());
     match kept.all() {
         Err(words) => {
-            let saved = &context.view.saved;
-            let is_reported = shown.error().is_some() && saved.layout.shows(saved.workspace, PaneKind::IMPORT);
+            let is_reported = shown.error().is_some() && context.view.is_shown(PaneKind::IMPORT);
             let color = if shown.error().is_some() { context.theme.error } else { context.theme.weak };
             // The list of files and the marked text say why.
             let (words, color) = if is_reported { ("No curves.", context.theme.weak) } else { (words, color) };

@@ -15,7 +15,8 @@ use crate::theme::UNIT;
 use crate::view::Sorting;
 use crate::workspaces::PaneKind;
 
-pub const PANE: Pane = Pane::new(PaneKind::HEAD_TO_HEAD, "Head to head", show).figure(&figure::KIND).under_conditions();
+pub const PANE: Pane =
+    Pane::new(PaneKind::HEAD_TO_HEAD, "Head to head", show).tab("Against").figure(&figure::KIND).under_conditions();
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::body(ui, &PANE, rect, context, |_, _| {});
@@ -34,14 +35,14 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         let words = if context.view.saved.metrics.cameras == RankedCameras::Library {
             "Choose two cameras."
         } else {
-            "Choose two cameras; Metrics shows fewer than two."
+            "Choose two cameras; the list has fewer than two."
         };
         child.weak(words);
         return;
     };
     let top = child.min_rect().bottom() + UNIT;
     let known: Vec<_> = metrics::uncertainties(&ranked, [a, b]).collect();
-    let body = widgets::lines::foot(ui, body, &context.scene.metrics_words_with(known), context);
+    let body = widgets::lines::foot(ui, body, &context.scene.metrics_words_with(CameraMetric::ALL, known), context);
     let table = metrics::head_to_head(&ranked, [a, b]);
     let shown = DataTable::new(PaneKind::HEAD_TO_HEAD, "Head to head", &table);
     // The table reaches to the pane's edge: a narrow pane shows the first three columns whole.

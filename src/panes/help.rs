@@ -24,7 +24,7 @@ use crate::panes::widgets::{self, WHAT_YOU_SEE};
 use crate::scene::{ComparedSensor, Scene};
 use crate::theme::{ROW, SMALL, UNIT};
 use crate::view::HelpView;
-use crate::view::tour::{STEPS, TourNumbers, TourStep};
+use crate::view::tour::{Tour, TourNumbers, TourStep};
 
 const LIST: f32 = 224.0;
 const TEXT_WIDTH: f32 = 720.0;
@@ -244,7 +244,7 @@ fn text(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.add_space(UNIT);
     ui.horizontal_wrapped(|ui| {
         for (words, command) in [
-            ("Take the tour", Command::Tour(TourMove::Begin)),
+            ("Take the tour", Command::Tour(TourMove::Begin(Tour::Program))),
             ("Data and sources", Command::Help("data", 0)),
             ("Equations", Command::Help("model", 0)),
         ] {
@@ -260,7 +260,8 @@ pub const TOUR: f32 = 100.0;
 const TOUR_BUTTONS: f32 = 216.0;
 
 pub fn tour(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let Some((index, step)) = context.view.tour.and_then(|index| Some((index, STEPS.get(index)?))) else { return };
+    let Some((tour, index)) = context.view.tour else { return };
+    let (step, count) = (&tour.steps()[index], tour.steps().len());
     let theme = context.theme;
     ui.painter().rect_filled(rect, 0.0, theme.plot);
     let inner = rect.shrink2(Vec2::new(2.0 * UNIT, UNIT));
@@ -268,14 +269,14 @@ pub fn tour(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let mut left = ui.new_child(UiBuilder::new().id_salt("tour words").max_rect(words));
     left.set_clip_rect(words.intersect(ui.clip_rect()));
     left.spacing_mut().item_spacing.y = 2.0;
-    left.label(RichText::new(format!("{} of {}  {}", index + 1, STEPS.len(), step.title)).strong());
+    left.label(RichText::new(format!("{} of {count}  {}", index + 1, step.title)).strong());
     left.label(step.text);
     left.label(RichText::new(numbers(step, context)).small());
     let place = inner.with_min_x(inner.right() - TOUR_BUTTONS);
     let to_left = Layout::right_to_left(Align::Center);
     let mut right = ui.new_child(UiBuilder::new().id_salt("tour buttons").max_rect(place).layout(to_left));
     let size = Vec2::new(64.0, ROW);
-    let last = index + 1 == STEPS.len();
+    let last = index + 1 == count;
     let hint = "Your document and layout come back as they were (Esc)";
     if right.add(Button::new("End").min_size(size)).on_hover_text(hint).clicked() {
         context.push(Command::Tour(TourMove::End));
@@ -294,6 +295,15 @@ fn numbers(step: &TourStep, context: &PaneContext<'_>) -> String {
     let cameras = || sources.iter().filter(|source| source.kind == SetKind::Camera && source.visible);
     let list = |parts: Vec<String>| parts.join("   ");
     match step.numbers {
+        TourNumbers::None => String::new(),
+        TourNumbers::MeanDifferences => {
+            let mean = |camera: &ComparedSensor| {
+                let all = scene.differences(camera.kind, &camera.name).ok()?;
+                let mean = all.iter().copied().sum::<Result<f64, _>>().ok()? / all.len() as f64;
+                Some(format!("{} {}", camera.label, fixed(mean, scene.document.difference.decimals)))
+            };
+            format!("Mean {}:   {}", scene.difference_name(), list(cameras().filter_map(mean).collect()))
+        }
         TourNumbers::LocusLengths => {
             let shown = sources.iter().filter(|source| source.is_reference).chain(cameras());
             let length = |s: &ComparedSensor| {

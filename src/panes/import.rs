@@ -20,7 +20,7 @@ const FILES: f32 = 184.0;
 /// In a narrower pane the files are a list that drops down.
 const NARROW: f32 = 480.0;
 
-pub const PANE: Pane = Pane::new(PaneKind::IMPORT, "Import", show).table();
+pub const PANE: Pane = Pane::new(PaneKind::IMPORT, "Import", show).tab("Text").table();
 
 /// True if files are listed one below the other in a pane of this rectangle.
 pub fn lists_files(pane: Rect) -> bool {

@@ -3,6 +3,7 @@
 mod numbers;
 mod patch;
 mod pinned;
+mod pixel;
 mod source;
 mod welcome;
 
@@ -20,7 +21,7 @@ use crate::panes::widgets::facts::range_words;
 use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::{ComparedSensor, Scene};
 use crate::theme::{Theme, UNIT};
-use crate::workspaces::{PaneKind, Workspace};
+use crate::workspaces::PaneKind;
 
 pub const PANE: Pane = Pane::new(PaneKind::INSPECTOR, "Inspector", show);
 
@@ -43,7 +44,7 @@ fn content(ui: &mut Ui, context: &mut PaneContext<'_>) {
         Some(PlotItem::Light) => source::light(ui, context),
         Some(PlotItem::DataSet { kind, name }) => source::set(ui, kind, &name, context),
     }
-    pinned::pixel(ui, context);
+    pixel::show(ui, context);
     pinned::show(ui, context);
 }
 
@@ -84,9 +85,8 @@ fn buttons(ui: &mut Ui, context: &mut PaneContext<'_>) -> bool {
         let words = if pinned { "Unpin" } else { "Pin" };
         context.button(ui, words, "Pin for comparison (P)", Command::Pin);
         copy = ui.button("Copy numbers").on_hover_text("For a spreadsheet, in full precision").clicked();
-        let there = context.view.saved.workspace == Workspace::Spectra;
-        if !there && ui.button("Show in Spectra").clicked() {
-            context.push(Command::Show(Workspace::Spectra));
+        if !context.view.is_shown(PaneKind::SPECTRA) && ui.button("Show in Spectra").clicked() {
+            context.push(Command::GoTo(PaneKind::SPECTRA));
         }
     });
     copy

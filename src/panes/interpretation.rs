@@ -33,7 +33,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let inner = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));
     let Some(shown) = context.import_selection() else {
         let mut child = ui.new_child(UiBuilder::new().id_salt("nothing recognized").max_rect(inner));
-        widgets::note(&mut child, "Drop files here.");
+        widgets::note(&mut child, "No file.");
         return;
     };
     context.view.import.unseen.remove(&shown.item);
@@ -83,9 +83,8 @@ fn content(ui: &mut Ui, shown: &ImportSelection, context: &mut PaneContext<'_>) 
 /// Reason that the file cannot be read with the settings, with a way to reset them.
 fn trouble(ui: &mut Ui, words: &str, line: Option<usize>, shown: &ImportSelection, context: &mut PaneContext<'_>) {
     let color = context.theme.error;
-    let saved = &context.view.saved;
     // The list of files and the marked text say why, where they are in sight.
-    let is_reported = !shown.pending && saved.layout.shows(saved.workspace, PaneKind::IMPORT);
+    let is_reported = !shown.pending && context.view.is_shown(PaneKind::IMPORT);
     if !is_reported {
         ui.horizontal_wrapped(|ui| {
             let (rect, _) = ui.allocate_exact_size(Vec2::new(16.0, 16.0), egui::Sense::hover());

@@ -1,105 +1,143 @@
-//! Compared sensors, which are the only legend, above the search and all data sets.
+//! All data sets as a table, the user's first: what each is, where it is from, and what it can be used as.
 
-mod compared;
-mod sets;
+use chromascope_core::query::Shared;
+use chromascope_figure::{Cell, InkRole, Table};
+use egui::{Rect, Ui};
 
-use std::collections::HashSet;
-
-use egui::{Id, Key, Rect, ScrollArea, TextEdit, Ui, UiBuilder, Vec2};
-
+use super::context::{Pane, PaneContext};
+use crate::catalog::{Entry, Place};
+use crate::command::Command;
 use crate::document::SetKind;
-use crate::panes::context::{Pane, PaneContext};
-use crate::panes::widgets::{self, mark_all};
-use crate::theme::{ROW, UNIT};
-use crate::workspaces::PaneKind;
+use crate::document::imported::ImportedSet;
+use crate::figures::data_set;
+use crate::paint;
+use crate::panes::widgets;
+use crate::panes::widgets::facts::{range, range_words};
+use crate::panes::widgets::sets;
+use crate::panes::widgets::table::{DataTable, Drawn};
+use crate::plot_item::PlotItem;
+use crate::scene::Scene;
+use crate::view::import::ImportItem;
+use crate::workspaces::{PaneKind, Workspace};
 
-/// Share of the pane's height for the compared sensors, and the least and most rows of it.
-const COMPARED: (f32, [f32; 2]) = (0.36, [3.0, 8.0]);
+/// Width of a set's curves, the second column.
+const CURVES: (usize, f32) = (1, 96.0);
 
 pub const PANE: Pane = Pane::new(PaneKind::LIBRARY, "Library", show);
 
+/// The rows, made anew when the user's sets change.
+#[derive(Default)]
+struct Rows {
+    own: Vec<Shared<ImportedSet>>,
+    entries: Vec<Entry>,
+    table: Table,
+    /// The item that the panes beside follow.
+    followed: Option<PlotItem>,
+}
+
+impl Rows {
+    fn refresh(&mut self, scene: &Scene<'_>) {
+        let own = &scene.document.own;
+        if !self.entries.is_empty() && self.own == *own {
+            return;
+        }
+        self.own.clone_from(own);
+        self.entries = own.iter().map(Entry::from_own).chain(scene.catalog.entries().iter().cloned()).collect();
+        self.table = Table::new(["name", "curves", "kind", "range", "source"]);
+        for entry in &self.entries {
+            let source = match &entry.place {
+                Place::Own(set) => format!("yours: {}", set.file),
+                Place::BuiltIn { .. } => entry.header.as_ref().map_or_else(String::new, |header| header.source.clone()),
+            };
+            let range = range(scene, entry).map_or_else(String::new, |(range, _)| range_words(range));
+            let name = if entry.is_own() { entry.name.clone() } else { entry.glossed_name() };
+            let kind = entry.kind.label().to_owned();
+            self.table.push([
+                Cell::from(name),
+                Cell::from(""),
+                Cell::from(kind),
+                Cell::from(range),
+                Cell::from(source),
+            ]);
+        }
+    }
+}
+
+fn item(entry: &Entry) -> PlotItem {
+    PlotItem::of_set(entry.kind, &entry.name)
+}
+
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    widgets::ground(ui, PaneKind::LIBRARY, rect, context);
-    let inner = rect.shrink2(Vec2::new(2.0 * UNIT, UNIT));
-    let mut column = ui.new_child(UiBuilder::new().id_salt("library").max_rect(inner));
-    column.set_clip_rect(rect.intersect(ui.clip_rect()));
-    column.spacing_mut().item_spacing.y = UNIT;
-    heading(&mut column, "Compared", context);
-    let enters = widgets::walk::has_keys(&column, PaneKind::LIBRARY, context)
-        && column.input_mut(|input| input.consume_key(egui::Modifiers::NONE, Key::ArrowDown))
-        || context.view.focused == Some(PaneKind::LIBRARY) && std::mem::take(&mut context.view.tab_enters);
-    if let Some(first) = context.scene.sources().first().filter(|_| enters) {
-        compared::focus(&column, first);
-    }
-    compared(&mut column, inner.height(), context);
-    column.separator();
-    heading(&mut column, "Library", context);
-    let rows = sets::rows(context);
-    let chosen = search_field(&mut column, context);
-    if chosen && let Some(entry) = rows.iter().find_map(sets::Row::entry) {
-        sets::choose(&entry, true, context);
-    }
-    sets::list(&mut column, &rows, context);
-}
-
-/// The compared sensors. The height of their list is constant, so that the library below does not move while sensors are ticked.
-fn compared(ui: &mut Ui, height: f32, context: &mut PaneContext<'_>) {
-    let sources = context.scene.sources();
-    let pitch = ROW + UNIT;
-    let (share, [least, most]) = COMPARED;
-    let rows = (share * height / pitch).floor().clamp(least, most);
-    let seen = Id::unique("compared sensors seen");
-    let now: Vec<(SetKind, String)> = sources.iter().map(|source| (source.kind, source.name.clone())).collect();
-    let before: Option<Vec<(SetKind, String)>> = ui.data(|data| data.get_temp(seen));
-    let area = ScrollArea::vertical().id_salt("compared").max_height(rows * pitch).auto_shrink(false);
-    // One that was just added is brought into view.
-    let added = before.as_ref().filter(|before| before.len() < now.len()).and_then(|before| {
-        let before: HashSet<&(SetKind, String)> = before.iter().collect();
-        now.iter().rposition(|key| !before.contains(key))
+    let scene = context.scene;
+    let mut rows = std::mem::take(context.states.of::<Rows>());
+    rows.refresh(&scene);
+    let chosen = rows.entries.iter().find(|entry| context.view.selected.as_ref() == Some(&item(entry))).cloned();
+    let body = widgets::body(ui, &PANE, rect, context, |ui, context| {
+        uses(ui, chosen.as_ref(), context);
     });
-    area.show_rows(ui, ROW, sources.len(), |ui, range| {
-        if sources.len() as f32 > rows {
-            ui.set_max_width(ui.available_width() - sets::SCROLL_BAR);
-        }
-        if let Some(added) = added {
-            let top = ui.cursor().min + Vec2::new(0.0, pitch * (added as f32 - range.start as f32));
-            ui.scroll_to_rect(Rect::from_min_size(top, Vec2::new(1.0, ROW)), None);
-        }
-        for source in &sources[range] {
-            compared::row(ui, source, context);
-        }
-    });
-    if before.as_ref() != Some(&now) {
-        ui.data_mut(|data| data.insert_temp(seen, now));
+    let of_row = |row: usize| Some(item(rows.entries.get(row)?));
+    let theme = context.theme;
+    let draw = |painter: &egui::Painter, place: Rect, row: usize| {
+        let size = [f64::from(place.width()), f64::from(place.height())];
+        let Some(panel) = rows
+            .entries
+            .get(row)
+            .and_then(|entry| data_set::sparkline(scene.results, entry, InkRole::Text, size).ok().flatten())
+        else {
+            return;
+        };
+        paint::still(painter, &panel, &theme, place);
+    };
+    let (column, width) = CURVES;
+    let table = DataTable::new(PANE.kind, "Library", &rows.table).with_items(&of_row);
+    let shown = table.with_drawn(Drawn { column, width, draw: &draw }).show(ui, body, context);
+    if let Some(entry) = shown.activated.and_then(|row| rows.entries.get(row)) {
+        use_or_leave(entry, context);
     }
+    follow(&mut rows, context);
+    *context.states.of::<Rows>() = rows;
 }
 
-fn heading(ui: &mut Ui, words: &str, context: &PaneContext<'_>) {
-    let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW - UNIT), egui::Sense::hover());
-    widgets::labeled(&response, egui::Role::Label, words);
-    widgets::lines::elided(ui, rect, words, egui::TextStyle::Body, context.theme.text);
+/// Shows how the selected set was read, where it is the user's, else its source.
+fn follow(rows: &mut Rows, context: &mut PaneContext<'_>) {
+    if rows.followed == context.view.selected {
+        return;
+    }
+    rows.followed.clone_from(&context.view.selected);
+    let Some(entry) = rows.entries.iter().find(|entry| rows.followed.as_ref() == Some(&item(entry))) else { return };
+    let pane = if entry.is_own() { PaneKind::INTERPRETATION } else { PaneKind::INSPECTOR };
+    if entry.is_own() {
+        context.view.import.select(ImportItem::Set(entry.name.clone()));
+    }
+    context.view.saved.layout.put(Workspace::Data, 2, pane);
 }
 
-/// The field that the list is searched with. Returns whether the first match was chosen with Enter.
-fn search_field(ui: &mut Ui, context: &mut PaneContext<'_>) -> bool {
-    let id = ui.scope_id().with("search");
-    let count = context.scene.catalog.entries().len() + context.scene.document.own.len();
-    let hint = format!("Search {count} sets, Ctrl+F");
-    let search = &mut context.view.search;
-    let field = TextEdit::singleline(search).id(id).hint_text(hint).margin(egui::Margin::symmetric(6, 4));
-    let response = ui.add_sized([ui.available_width(), ROW], field);
-    widgets::labeled(&response, egui::Role::TextInput, "Search the library");
-    if std::mem::take(&mut context.view.focus_search) {
-        response.request_focus();
-        mark_all(ui, id, &context.view.search);
+/// Uses a set, or ends its use where that is possible.
+fn use_or_leave(entry: &Entry, context: &mut PaneContext<'_>) {
+    let on = context.scene.document.uses(entry.kind, &entry.name);
+    sets::choose(entry, !on || !matches!(entry.kind, SetKind::Camera | SetKind::Observer | SetKind::Filter), context);
+}
+
+/// What can be done with the selected set.
+fn uses(ui: &mut Ui, entry: Option<&Entry>, context: &mut PaneContext<'_>) {
+    let Some(entry) = entry else {
+        context.button(ui, "Open…", "Spectral files of any kind (Ctrl+O)", Command::Open);
+        return widgets::note(ui, "Select a set to see its source and to use it.");
+    };
+    let used = context.scene.document.uses(entry.kind, &entry.name);
+    let words = match entry.kind {
+        SetKind::Camera | SetKind::Observer if used => "Remove from comparison".to_owned(),
+        SetKind::Camera => "Use as camera".to_owned(),
+        SetKind::Observer => "Compare".to_owned(),
+        SetKind::Filter if used => "Remove filter".to_owned(),
+        SetKind::Unsorted => "Choose its kind…".to_owned(),
+        kind => kind.used_as().map_or_else(String::new, |used| format!("Use as {used}")),
+    };
+    let ends = matches!(entry.kind, SetKind::Camera | SetKind::Observer | SetKind::Filter);
+    let is_reference = entry.kind == SetKind::Observer && entry.name == context.scene.document.reference;
+    let button = ui.add_enabled((!used || ends) && !is_reference, egui::Button::new(words));
+    if button.on_disabled_hover_text("In use").clicked() {
+        use_or_leave(entry, context);
     }
-    context.view.keeps_escape |= response.has_focus() && !context.view.search.is_empty();
-    if response.lost_focus() {
-        // The key itself was taken by the program before; that it is down remains.
-        if ui.input(|input| input.key_down(Key::Escape)) {
-            context.view.search.clear();
-        }
-        return ui.input(|input| input.key_pressed(Key::Enter)) && !context.view.search.trim().is_empty();
-    }
-    false
+    ui.menu_button("More", |ui| sets::menu(ui, entry, context));
 }

@@ -177,7 +177,11 @@ fn cameras(ui: &mut Ui, scene: &Scene<'_>, shown: &Shown<LightSheetQuery>, conte
         let why = found.as_ref().err().map_or_else(String::new, |error| sentence(&error.to_string()));
         let found = found.as_ref().ok();
         let numbers = [found.map(|f| f.mean), found.map(|f| f.percentile_95), found.map(|f| f.max)].map(Cell::from);
-        let worst = found.and_then(|found| names.get(found.worst)).map_or("", String::as_str);
+        // No patch is the worst of equal ones.
+        let worst = found
+            .filter(|found| found.max >= 0.005)
+            .and_then(|found| names.get(found.worst))
+            .map_or("", String::as_str);
         let cells = std::iter::once(Cell::from(label.as_str())).chain(numbers).chain([Cell::from(worst)]);
         table.push(cells.map(|cell| if why.is_empty() { cell } else { cell.with(|note| note.hint.clone_from(&why)) }));
     }

@@ -2,7 +2,7 @@
 
 use egui::{Align, Atom, Button, Layout, Rect, Ui, UiBuilder, Vec2};
 
-use super::context::{Pane, PaneContext};
+use super::context::PaneContext;
 use crate::action::Action;
 use crate::action::history::History;
 use crate::command::{Command, REPORTS, SessionCommand, THEMES, TourMove, shortcut_of};
@@ -12,7 +12,8 @@ use crate::export::profile::CorrectionForm;
 use crate::panes::widgets::{self, Icon, conditions, icon_button, pick_list};
 use crate::theme::{Surround, UNIT};
 use crate::view::template::TEMPLATES;
-use crate::workspaces::{Layout as PaneLayout, PaneKind, Workspace};
+use crate::view::tour::Tour;
+use crate::workspaces::{PaneKind, Side, Workspace};
 
 const GUTTER: Vec2 = Vec2::new(14.0, 12.0);
 
@@ -41,11 +42,11 @@ pub fn show(ui: &mut Ui, rect: Rect, history: &History, context: &mut PaneContex
 fn tabs(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let theme = context.theme;
     for workspace in Workspace::ALL {
-        let on = context.view.saved.workspace == workspace;
+        let on = context.view.saved.workspace == workspace && !context.view.numerics;
         let fill = if on { theme.control } else { theme.panel };
         let response =
             ui.add(Button::selectable(on, workspace.label()).fill(fill).min_size(Vec2::new(72.0, rect.height())));
-        if workspace == Workspace::Import {
+        if workspace == Workspace::Data {
             unseen_dot(ui, &response, context);
         }
         if on {
@@ -64,7 +65,7 @@ fn unseen_dot(ui: &Ui, tab: &egui::Response, context: &PaneContext<'_>) {
     }
     ui.painter().circle_filled(tab.rect.right_top() + Vec2::new(-7.0, 9.0), 3.0, context.theme.warning);
     let files = if count == 1 { "1 file".to_owned() } else { format!("{count} files") };
-    let words = format!("Import: {files} to check");
+    let words = format!("Data: {files} to check");
     widgets::labeled(tab, egui::Role::Button, &words);
     tab.clone().on_hover_text(words);
 }
@@ -160,7 +161,7 @@ fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
             }
         });
     }
-    ui.menu_button("Report on the paper", |ui| {
+    ui.menu_button("Report", |ui| {
         for (on, words) in REPORTS {
             item(ui, words, Command::Report(on), context);
         }
@@ -245,45 +246,23 @@ fn ticked(ui: &mut Ui, on: bool, words: &str, hint: &str, command: impl Into<Com
     }
 }
 
-fn heading(ui: &mut Ui, words: &str) {
-    ui.horizontal(|ui| {
-        ui.add_space(GUTTER.x + 2.0 * UNIT);
-        widgets::note(ui, words);
-    });
-}
-
-fn panes(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let workspace = context.view.saved.workspace;
-    let line = |ui: &mut Ui, pane: &Pane, context: &mut PaneContext<'_>| {
-        let shown = context.view.saved.layout.shows(workspace, pane.kind);
-        ticked(ui, shown, pane.title, "", Command::TogglePane(pane.kind), context);
-    };
-    let is_here = |pane: &Pane, context: &PaneContext<'_>| {
-        pane.kind == PaneKind::LIBRARY
-            || PaneLayout::default().shows(workspace, pane.kind)
-            || context.view.saved.layout.shows(workspace, pane.kind)
-    };
-    heading(ui, &format!("Panes of {}", workspace.label()));
-    for pane in context.panes.iter().filter(|pane| is_here(pane, context)).collect::<Vec<_>>() {
-        line(ui, pane, context);
+fn sides(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let layout = &context.view.saved.layout;
+    let right = if context.view.column_over { true } else { layout.right };
+    for (side, on, words) in [
+        (Side::Left, layout.left, "Compared sensors"),
+        (Side::Right, right, "Selection and settings"),
+        (Side::Lower, layout.compare[1].is_some(), "Lower view"),
+    ] {
+        ticked(ui, on, words, "", Command::Toggle(side), context);
     }
-    ui.menu_button((gutter(false), "Other panes"), |ui| {
-        for group in Workspace::ALL {
-            let others = context.panes.iter().filter(|pane| pane.kind.group() == group && !is_here(pane, context));
-            let others: Vec<_> = others.collect();
-            if !others.is_empty() {
-                heading(ui, group.label());
-            }
-            for pane in others {
-                line(ui, pane, context);
-            }
-        }
-    });
 }
 
 fn view(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    panes(ui, context);
-    ui.separator();
+    if context.view.saved.workspace == Workspace::Compare {
+        sides(ui, context);
+        ui.separator();
+    }
     let pane = focused(context);
     let maximized = context.view.maximized == Some(pane);
     if !pane.is_controls() {
@@ -319,11 +298,14 @@ fn view(ui: &mut Ui, context: &mut PaneContext<'_>) {
 }
 
 fn help(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    item(ui, "Tour: the paper in five steps", Command::Tour(TourMove::Begin), context);
+    for tour in Tour::ALL {
+        item(ui, tour.label(), Command::Tour(TourMove::Begin(tour)), context);
+    }
     ui.separator();
     for page in crate::help::pages() {
         item(ui, &page.title, Command::Help(page.name, 0), context);
     }
     ui.separator();
+    item(ui, "Numerics", Command::GoTo(PaneKind::METHODS), context);
     item(ui, "About Chromascope", Command::ToggleAbout, context);
 }

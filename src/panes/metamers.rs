@@ -15,7 +15,7 @@ use crate::scene::metrics::{FoundMetamers, MetamerRow};
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
-pub const PANE: Pane = Pane::new(PaneKind::new("Metamers"), "Metamers", show).under_conditions();
+pub const PANE: Pane = Pane::new(PaneKind::METAMERS, "Metamers", show).under_conditions();
 
 /// The pair that was clicked, as a row.
 #[derive(Default)]
@@ -25,7 +25,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::body(ui, &PANE, rect, context, switches);
     let mut child = widgets::clipped(ui, "metamers", body);
     let Some(camera) = report_card::camera(&context.scene, &context.view.look(PANE.kind)) else {
-        child.weak("Tick a camera in the Library.");
+        child.weak("Add a camera.");
         return;
     };
     let confusion = context.view.saved.metrics.confusion.confusion();
@@ -71,11 +71,14 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
 fn pairs(ui: &mut Ui, place: Rect, camera: &SensorId, found: &FoundMetamers, context: &mut PaneContext<'_>) {
     let hints = [
         "",
+        "The pair as the reference renders it",
+        "The pair as the camera renders it",
         "",
         "Difference to the reference observer.",
         "Largest difference of a balanced camera channel, each through the CIE lightness function (0 to 100).",
     ];
-    let heads = ["reflectance", "its metamer", "ΔE*00 reference", "ΔL* camera"].into_iter().zip(hints);
+    let heads =
+        ["reflectance", "reference", "camera", "its metamer", "ΔE*00 reference", "ΔL* camera"].into_iter().zip(hints);
     let mut table = Table::new(heads.map(|(head, hint)| Column {
         hint: hint.to_owned(),
         decimals: Some(2),
@@ -86,7 +89,11 @@ fn pairs(ui: &mut Ui, place: Rect, camera: &SensorId, found: &FoundMetamers, con
         let [a, b] =
             row.names.each_ref().map(|[set, name]| if set == name { name.clone() } else { format!("{name} ({set})") });
         let [reference, camera] = [row.pair.observer_difference, row.pair.camera_difference];
-        table.push([Cell::from(a), Cell::from(b), Cell::from(reference), Cell::from(camera)]);
+        let [seen, recorded] = row.colors.map(|pair| {
+            let named = pair.map(|[r, g, b]| format!("#{r:02x}{g:02x}{b:02x}")).join(" ");
+            Cell::from(named).with(|note| note.swatch = Some(pair))
+        });
+        table.push([Cell::from(a), seen, recorded, Cell::from(b), Cell::from(reference), Cell::from(camera)]);
     }
     let item = |row: usize| {
         let source = Some(camera.clone());

@@ -59,7 +59,7 @@ fn scene(ui: &mut Ui, body: Rect, subject: Subject, context: &mut PaneContext<'_
                 "No sample needs a spectral integral: nothing is rendered, or every surface is \
                                   Lambertian."
             }
-            Subject::Loci => "No sensor is visible. Tick a camera in the Library.",
+            Subject::Loci => "No sensor is visible. Add a camera in Compare.",
         };
         nothing(ui, body, words, context);
         return;
@@ -199,12 +199,19 @@ fn run(ui: &mut Ui, now: Shows, context: &mut PaneContext<'_>) {
     if matches!(now, Shows::Bench(_)) && bench().is_none() {
         return;
     }
-    let again = match now {
+    let again = is_measured(context);
+    // Before anything is measured the button is in the middle, where the numbers will be.
+    if again || Profiler::failure(context.later).is_some() {
+        let hint = "Measures the methods on this scene. Takes a few seconds.";
+        context.button(ui, if again { "Run again" } else { "Run" }, hint, measure(now));
+    }
+}
+
+fn is_measured(context: &PaneContext<'_>) -> bool {
+    match context.view.shows {
         Shows::Scene(_) => context.profiler.measured.run.is_some(),
         Shows::Bench(workload) => context.profiler.measured.reports.contains_key(&workload),
-    };
-    let hint = "Measures the methods on this scene. Takes a few seconds.";
-    context.button(ui, if again { "Run again" } else { "Run" }, hint, measure(now));
+    }
 }
 
 fn measure(shows: Shows) -> Command {
@@ -214,11 +221,15 @@ fn measure(shows: Shows) -> Command {
     }
 }
 
-fn nothing(ui: &mut Ui, body: Rect, words: &str, context: &PaneContext<'_>) {
-    let mut child = widgets::middle(ui, "nothing measured", body, Vec2::new(420.0, 48.0));
+fn nothing(ui: &mut Ui, body: Rect, words: &str, context: &mut PaneContext<'_>) {
+    let mut child = widgets::middle(ui, "nothing measured", body, Vec2::new(420.0, 64.0));
     child.label(words);
-    let measures = Profiler::busy(context.later).is_some();
-    child.label(if measures { "Measuring…" } else { "Run, above, takes a few seconds." });
+    if Profiler::busy(context.later).is_some() {
+        child.label("Measuring…");
+    } else if !is_measured(context) {
+        let command = measure(context.view.shows);
+        context.button(&mut child, "Run", "Measures the methods. Takes a few seconds.", command);
+    }
 }
 
 fn failed(ui: &Ui, body: Rect, why: &str, context: &PaneContext<'_>) {

@@ -34,7 +34,7 @@ const ABOUT: &str = "Raw RGB that a camera recorded of known patches, against th
     or PNG of a 6 × 4 chart.";
 
 pub const PANE: Pane =
-    Pane::new(PaneKind::RECORDED, "Recorded", show).figure(&recorded::KIND).under_conditions().table();
+    Pane::new(PaneKind::RECORDED, "Recorded", show).tab("Raw").figure(&recorded::KIND).under_conditions().table();
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::body(ui, &PANE, rect, context, switches);

@@ -2,6 +2,7 @@
 
 mod draw;
 mod request;
+mod settings;
 
 use std::time::Duration;
 
@@ -13,14 +14,19 @@ use crate::action::{Action, RenderAction};
 use crate::document::render::SUN;
 use crate::figures;
 use crate::panes::widgets;
+use crate::plot_item::PlotItem;
 use crate::render_service::REST_AFTER;
 use crate::scene::orbit::Orbit;
 use crate::theme::{HEADING, UNIT};
 use crate::view::{PixelPlace, RenderMode};
 use crate::workspaces::PaneKind;
 
-pub const PANE: Pane =
-    Pane::new(PaneKind::RENDER, "Render", show).figure(&figures::render::KIND).under_conditions().table();
+pub const PANE: Pane = Pane::new(PaneKind::RENDER, "Render", show)
+    .figure(&figures::render::KIND)
+    .under_conditions()
+    .table()
+    .tab("Pictures")
+    .settings(settings::show);
 
 #[derive(Default)]
 struct RenderPane {
@@ -113,14 +119,22 @@ fn point_at(ui: &Ui, response: &egui::Response, layout: &PictureLayout, context:
         ui.ctx().request_repaint();
         return;
     }
+    let shot = context.render_service.frame().cloned();
+    let patch = shot.as_deref().and_then(|shot| figures::render::patch_at(&context.scene, shot, &place));
+    let item = match patch {
+        Some(patch) => PlotItem::Patch { source: Some(source), patch },
+        None => PlotItem::Sensor(source),
+    };
     if response.clicked() {
+        if item.patch().is_some() {
+            context.view.click(Some(&item));
+        }
         context.view.render.pinned = Some(place.clone());
         ui.ctx().request_repaint();
     }
     if !response.dragged() {
-        let pictures = context.render_service.frame();
-        context.view.point = pictures.and_then(|shot| figures::render::pixel_line(&context.scene, shot, &place));
-        context.view.hover(Some(&crate::plot_item::PlotItem::Sensor(source)));
+        context.view.point = shot.and_then(|shot| figures::render::pixel_line(&context.scene, &shot, &place));
+        context.view.hover(Some(&item));
         context.view.render.hovered = Some(place);
     }
 }
@@ -223,7 +237,7 @@ fn by_keys(ui: &Ui, response: &Response, context: &mut PaneContext<'_>) {
 }
 
 fn change(ui: &Ui, context: &mut PaneContext<'_>, to: impl FnOnce(Orbit) -> Orbit) {
-    let now = context.view.saved.render.orbit.unwrap_or_else(|| Orbit::of(&context.scene.document.render.mesh));
+    let now = context.view.saved.render.orbit.unwrap_or_else(|| Orbit::of(&context.scene.document.render));
     context.view.saved.render.orbit = Some(to(now));
     ui.ctx().request_repaint();
 }

@@ -19,14 +19,18 @@ const NARROWEST: f32 = 300.0;
 
 const BARS: &str = "patches";
 
-pub const PANE: Pane =
-    Pane::new(PaneKind::REPORT_CARD, "Report card", show).figure(&report_card::KIND).under_conditions().table();
+pub const PANE: Pane = Pane::new(PaneKind::REPORT_CARD, "Report card", show)
+    .tab("Overview")
+    .figure(&report_card::KIND)
+    .under_conditions()
+    .table();
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::body(ui, &PANE, rect, context, choose);
-    let width = f64::from(body.width().max(NARROWEST));
+    // Less what the scroll bar keeps, and half a number at the end of an axis.
+    let width = f64::from((body.width() - 6.0 * UNIT).max(NARROWEST));
     let Some(camera) = report_card::camera(&context.scene, &context.view.look(PANE.kind)) else {
-        widgets::say(ui, body, "Tick a camera in the Library.", context.theme.weak);
+        widgets::say(ui, body, "Add a camera.", context.theme.weak);
         return;
     };
     let mut page = match made(&camera, context) {

@@ -1,49 +1,132 @@
-//! All conditions in one bar: reference, light, temperature, patches, white balance, color transform, difference.
+//! All conditions in one sentence: seen by a reference, under a light, on patches, through a color transform, in a difference.
 
-use egui::{Align, Layout, Rect, Sense, Slider, Ui, UiBuilder, Vec2};
+use egui::{Align, Button, Layout, Rect, Sense, TextStyle, Ui, UiBuilder, Vec2};
 
 use super::context::PaneContext;
-use crate::action::{Action, SceneAction};
+use crate::action::{Action, RenderAction, SceneAction};
+use crate::command::Command;
 use crate::document::render::{BALANCE, SUN};
-use crate::document::{Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
+use crate::document::{Exaggeration, Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
 use crate::format::signed;
 use crate::panes::widgets::conditions::{self, Listing};
 use crate::panes::widgets::number_field::NumberField;
 use crate::panes::widgets::pick_list::{self, Line};
-use crate::panes::widgets::{self, Icon};
+use crate::panes::widgets::{self, Icon, lines};
 use crate::theme::{ROW, UNIT};
 use crate::view::View;
 use crate::workspaces::PaneKind;
 
-/// Temperatures of the slider, in mired from hot to cold; the slider runs like the strip, cold at the left.
-const MIRED: [f64; 2] = [50.0, 1000.0];
+pub const HEIGHT: f32 = 36.0;
 const DIM: f32 = 0.45;
-/// Below this width the list of differences has no room for its name, only for a button.
-const WITH_DIFFERENCE: f32 = 1100.0;
-const BUTTON: f32 = 20.0;
+const GAP: f32 = 1.5 * UNIT;
+/// The menu of what has no room.
+const MORE: f32 = 24.0;
+
+/// A part of the sentence: its words, its control and the widths that this has in wide and narrow windows.
+struct Part {
+    condition: Condition,
+    word: &'static str,
+    widths: [f32; 2],
+    control: fn(&mut Ui, &mut PaneContext<'_>),
+    /// Parts with larger numbers leave a narrow bar first, for the menu at its end.
+    leaves: u8,
+}
+
+fn parts(context: &PaneContext<'_>) -> Vec<Part> {
+    let part = |condition, word, widths, leaves, control| Part { condition, word, widths, control, leaves };
+    let is_set = matches!(context.scene.document.light, Light::Set(_));
+    let mut parts = vec![
+        part(Condition::Reference, "Seen by", [150.0, 112.0], 0, reference as fn(&mut Ui, &mut PaneContext<'_>)),
+        part(Condition::Light, "under", [150.0, 104.0], 0, light),
+        part(Condition::White, "", [30.0, 30.0], 0, beside_light),
+        // The temperature of a light of its own marks the loci alone.
+        part(
+            Condition::Temperature,
+            if is_set { "loci at" } else { "" },
+            [66.0, 62.0],
+            if is_set { 9 } else { 0 },
+            temperature,
+        ),
+        part(Condition::Patches, "on", [160.0, 118.0], 1, patches),
+        part(Condition::Transform, "through", [146.0, 104.0], 2, transform),
+        part(Condition::Difference, "in", [90.0, 76.0], 3, difference),
+        part(Condition::Exaggeration, "", [68.0, 68.0], 4, exaggeration),
+    ];
+    if shows_sunlight(context) {
+        parts.insert(3, part(Condition::Light, "", [104.0, 104.0], 5, sunlit));
+    }
+    parts
+}
 
 pub fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let wide = rect.width() >= WITH_DIFFERENCE;
-    let slider = if wide { 166.0 } else { 84.0 };
     let inner = rect.shrink2(Vec2::new(2.0 * UNIT, 0.0));
-    let layout = Layout::left_to_right(Align::Min);
-    let mut bar = ui.new_child(UiBuilder::new().id_salt("scene bar").max_rect(inner).layout(layout));
+    let mut bar = ui.new_child(UiBuilder::new().id_salt("scene bar").max_rect(inner));
     bar.set_clip_rect(rect.intersect(ui.clip_rect()));
-    bar.spacing_mut().item_spacing.x = 3.0 * UNIT;
-    let compact = if wide { 1.0 } else { 0.78 };
-    field(&mut bar, (Condition::Reference, "Reference"), 200.0 * compact, context, reference);
-    let caption = light_caption(context);
-    field(&mut bar, (Condition::Light, &caption), 148.0 * compact, context, light);
-    let caption = temperature_caption(context, wide);
-    field(&mut bar, (Condition::Temperature, caption), slider + 74.0, context, |ui, context| {
-        temperature(ui, slider, context);
-    });
-    field(&mut bar, (Condition::Patches, "Patches"), 196.0 * compact, context, patches);
-    let caption = if shows_sunlight(context) { "Render's own white" } else { "White balance" };
-    field(&mut bar, (Condition::White, caption), 108.0 * compact, context, white);
-    field(&mut bar, (Condition::Transform, "Color transform"), 146.0 * compact, context, transform);
-    let (caption, width) = if wide { ("Difference", 90.0) } else { ("Δ", BUTTON) };
-    field(&mut bar, (Condition::Difference, caption), width, context, difference);
+    let mut parts = parts(context);
+    let words = |part: &Part, ui: &Ui| match part.word {
+        "" => 0.0,
+        word => lines::width(ui, word, TextStyle::Body) + GAP,
+    };
+    let width = |parts: &[Part], size: usize, ui: &Ui| -> f32 {
+        parts.iter().map(|part| words(part, ui) + part.widths[size] + GAP).sum::<f32>() - GAP
+    };
+    let size = usize::from(width(&parts, 0, &bar) > inner.width());
+    let mut left_out = Vec::new();
+    while width(&parts, size, &bar) > inner.width() - if left_out.is_empty() { 0.0 } else { MORE + GAP } {
+        let Some(last) = (0..parts.len()).max_by_key(|&index| parts[index].leaves) else { break };
+        left_out.push(parts.remove(last));
+    }
+    let mut x = inner.left();
+    for part in &parts {
+        let word = words(part, &bar);
+        let place = |left: f32, width: f32| {
+            Rect::from_min_size(egui::pos2(left, inner.center().y - 0.5 * ROW), Vec2::new(width, ROW))
+        };
+        let control = place(x + word, part.widths[size]);
+        field(&mut bar, part, (place(x, word), control), context);
+        x = control.right() + GAP;
+    }
+    if left_out.iter().any(|part| part.condition == Condition::Temperature)
+        && std::mem::take(&mut context.view.focus_temperature)
+    {
+        // The palette takes a number with its unit.
+        context.push(Command::FindAnything);
+        context.view.say("Type a temperature, such as 5500 K.");
+    }
+    if !left_out.is_empty() {
+        let place = Rect::from_min_size(egui::pos2(x, inner.center().y - 0.5 * ROW), Vec2::new(MORE, ROW));
+        more(&mut bar, place, &left_out, context);
+    }
+}
+
+/// The menu of the parts that have no room, at the end of the sentence.
+fn more(ui: &mut Ui, place: Rect, parts: &[Part], context: &mut PaneContext<'_>) {
+    let mut child = ui.new_child(UiBuilder::new().id_salt("rest of the sentence").max_rect(place));
+    let config =
+        egui::containers::menu::MenuConfig::new().close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside);
+    let (button, _) =
+        egui::containers::menu::MenuButton::from_button(Button::new("›")).config(config).ui(&mut child, |ui| {
+            ui.set_min_width(150.0);
+            for part in parts {
+                let Some(all) = part.condition.listing().filter(|_| part.condition != Condition::White) else {
+                    ui.label(part.condition.name());
+                    (part.control)(ui, context);
+                    continue;
+                };
+                ui.menu_button(part.condition.name(), |ui| {
+                    for (line, action) in all(&context.scene) {
+                        if let Some(action) = action
+                            && ui.selectable_label(line.on, &line.words).clicked()
+                        {
+                            context.push(action);
+                            ui.close();
+                        }
+                    }
+                });
+            }
+        });
+    lines::labeled(&button, egui::Role::Button, "More conditions");
+    button.on_hover_text("Conditions that have no room here");
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -55,22 +138,48 @@ enum Condition {
     White,
     Transform,
     Difference,
+    Exaggeration,
 }
 
 impl Condition {
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Reference => "Reference",
+            Self::Light => "Light",
+            Self::Temperature => "Temperature",
+            Self::Patches => "Patches",
+            Self::White => "White balance",
+            Self::Transform => "Color transform",
+            Self::Difference => "Difference",
+            Self::Exaggeration => "Exaggerate",
+        }
+    }
+
+    fn listing(self) -> Option<Listing> {
+        let mut all = conditions::ALL.iter();
+        all.find(|(name, _)| *name == self.name()).map(|(_, listing)| *listing)
+    }
+
     /// True if a pane shows something that depends on it.
     fn matters_to(self, pane: PaneKind, view: &View, (light, is_eq_13): (&Light, bool)) -> bool {
         // A light of its own has its own temperature: what is set marks the loci alone.
         let is_of_light = self != Self::Temperature || !matches!(light, Light::Set(_));
+        if self == Self::Exaggeration {
+            let drawn = [PaneKind::CHROMATICITY, PaneKind::DIFFERENCES, PaneKind::SWATCHES, PaneKind::RENDER];
+            return drawn.contains(&pane);
+        }
         match pane {
-            PaneKind::LIBRARY | PaneKind::IMPORT | PaneKind::CURVES | PaneKind::INTERPRETATION => false,
+            PaneKind::LIBRARY
+            | PaneKind::COMPARED
+            | PaneKind::SETTINGS
+            | PaneKind::IMPORT
+            | PaneKind::CURVES
+            | PaneKind::INTERPRETATION => false,
             PaneKind::INSPECTOR => view.selected.is_some() || !view.pinned.is_empty(),
             PaneKind::SPECTRA => {
                 is_of_light && matches!(self, Self::Reference | Self::Light | Self::Temperature | Self::Patches)
             }
-            PaneKind::RENDER | PaneKind::RENDER_SETTINGS | PaneKind::TOLERANCE | PaneKind::STATISTICS => {
-                is_of_light && self != Self::Patches
-            }
+            PaneKind::RENDER | PaneKind::TOLERANCE | PaneKind::STATISTICS => is_of_light && self != Self::Patches,
             // Ranks are by every metric.
             PaneKind::METRICS | PaneKind::HEAD_TO_HEAD => self != Self::Difference,
             // There is no correction without a fit.
@@ -89,80 +198,47 @@ impl Condition {
         let sun = Light::Set(SUN.to_owned());
         let is_eq_13 = context.scene.document.transform.is_eq_13();
         let light_of = |pane| match pane {
-            PaneKind::RENDER | PaneKind::RENDER_SETTINGS | PaneKind::TOLERANCE | PaneKind::STATISTICS
-                if context.scene.is_sunlit() =>
-            {
-                &sun
-            }
+            PaneKind::RENDER | PaneKind::TOLERANCE | PaneKind::STATISTICS if context.scene.is_sunlit() => &sun,
             _ => light,
         };
         if let Some(pane) = view.maximized {
             return self.matters_to(pane, view, (light_of(pane), is_eq_13));
         }
-        let places = view.saved.layout.places(view.saved.workspace).iter().flatten();
-        places.copied().any(|pane| self.matters_to(pane, view, (light_of(pane), is_eq_13)))
+        view.places().into_iter().flatten().any(|pane| self.matters_to(pane, view, (light_of(pane), is_eq_13)))
     }
 }
 
-/// True if the workspace shows pictures under the sun, whatever the light of the other panes.
+/// True if pictures under the sun are visible, whatever the light of the other panes.
 fn shows_sunlight(context: &PaneContext<'_>) -> bool {
-    let saved = &context.view.saved;
-    let mut places = saved.layout.places(saved.workspace).iter().flatten();
-    context.scene.is_sunlit() && places.any(|pane| *pane == PaneKind::RENDER)
+    context.scene.is_sunlit() && context.view.is_shown(PaneKind::RENDER)
 }
 
-/// A caption above a control of a fixed width, so that nothing moves when a value changes; dim where the control does nothing in
-/// the workspace.
-fn field(
-    ui: &mut Ui,
-    (condition, caption): (Condition, &str),
-    width: f32,
-    context: &mut PaneContext<'_>,
-    control: impl FnOnce(&mut Ui, &mut PaneContext<'_>),
-) {
-    let id = format!("{condition:?}");
-    let matters = condition.matters(context);
-    let (rect, _) = ui.allocate_exact_size(Vec2::new(width, ui.available_height()), Sense::hover());
-    let top = Rect::from_min_size(rect.min + Vec2::new(0.0, 2.0), Vec2::new(width + 2.0 * UNIT, 14.0));
-    let mut head = ui.new_child(UiBuilder::new().id_salt((&id, "head")).max_rect(top));
-    if !matters {
-        head.set_opacity(DIM);
-    }
-    widgets::note(&mut head, caption);
-    let below = Rect::from_min_size(rect.min + Vec2::new(0.0, 18.0), Vec2::new(width, ROW));
+/// A word and a control of a fixed width, so that nothing moves when a value changes; dim where the control does nothing in the
+/// workspace.
+fn field(ui: &mut Ui, part: &Part, (word, control): (Rect, Rect), context: &mut PaneContext<'_>) {
+    let matters = part.condition.matters(context);
+    let id = (part.condition, part.leaves);
     let layout = Layout::left_to_right(Align::Center);
-    let mut body = ui.new_child(UiBuilder::new().id_salt(&id).max_rect(below).layout(layout));
+    let mut body = ui.new_child(UiBuilder::new().id_salt(id).max_rect(control).layout(layout));
     body.spacing_mut().item_spacing.x = UNIT;
+    let mut color = context.theme.weak;
     if !matters {
         body.set_opacity(DIM);
-        let name = context.view.saved.workspace.label();
-        let place = ui.interact(rect, ui.scope_id().with((&id, "dim")), Sense::hover());
-        place.on_hover_text(format!("{caption}: no effect on the panes of {name}"));
+        color = color.gamma_multiply(DIM);
+        let place = ui.interact(word.union(control), ui.scope_id().with((id, "dim")), Sense::hover());
+        let workspace = context.view.saved.workspace.label();
+        place.on_hover_text(format!("{}: no effect on the panes of {workspace}", part.condition.name()));
     }
-    control(&mut body, context);
-}
-
-fn choice(
-    ui: &mut Ui,
-    name: &str,
-    hint: &str,
-    shown: &str,
-    context: &PaneContext<'_>,
-    lines: impl FnOnce() -> Vec<Line>,
-) -> Option<usize> {
-    let width = ui.available_width();
-    if width > BUTTON {
-        return pick_list::drop_down(ui, (name, hint), shown, width, &context.theme, lines);
+    if !part.word.is_empty() {
+        lines::elided(ui, word, part.word, TextStyle::Body, color);
     }
-    let (button, chosen) = pick_list::menu(ui, ("⋯", name, &format!("{name}: {shown}\n{hint}")), &context.theme, lines);
-    widgets::labeled(&button, egui::Role::Button, format!("{name}: {shown}"));
-    chosen
+    (part.control)(&mut body, context);
 }
 
 /// A list of the alternatives of a condition. Pushes the action of the one that was chosen.
 fn actions(ui: &mut Ui, (name, hint): (&str, &str), shown: &str, context: &mut PaneContext<'_>, all: Listing) {
     let mut made = Vec::new();
-    let chosen = choice(ui, name, hint, shown, context, || {
+    let chosen = pick_list::drop_down(ui, (name, hint), shown, ui.available_width(), &context.theme, || {
         let (lines, actions): (Vec<_>, Vec<_>) = all(&context.scene).into_iter().unzip();
         made = actions;
         lines
@@ -180,38 +256,16 @@ fn reference(ui: &mut Ui, context: &mut PaneContext<'_>) {
     actions(ui, ("Reference", "The observer that cameras are compared with."), &shown, context, conditions::references);
 }
 
-fn light_caption(context: &PaneContext<'_>) -> String {
-    if shows_sunlight(context) {
-        return "Render's own light".to_owned();
-    }
-    let filters = if context.scene.document.filters.is_empty() { "Light" } else { "Filtered" };
-    match context.scene.light_temperature() {
-        Ok(Ok(cct)) => format!("{filters} {:.0} K", cct.temperature.get()),
-        _ => filters.to_owned(),
-    }
-}
-
 fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let now = context.scene.document.light.clone();
     let shown = match &now {
-        Light::Set(name) if name == "E" && ui.available_width() > 130.0 => "E, equal energy".to_owned(),
         Light::Set(name) => name.clone(),
         Light::BlackBody => "Blackbody".to_owned(),
         Light::Daylight => "Daylight".to_owned(),
     };
-    let sunlit = shows_sunlight(context);
-    let mut hint =
-        "The light on the scene. Blackbody and Daylight follow the temperature. Filters are ticked in the Library."
-            .to_owned();
-    if sunlit {
-        hint = format!(
-            "The pictures are under the sun, balanced to {BALANCE}, by Render's own choice; other panes: {shown}. What is \
-             chosen here is for both. {hint}"
-        );
-    }
+    let mut hint = "The light on the scene. Blackbody and Daylight follow the temperature.".to_owned();
     let filters = context.scene.document.filters.clone();
     let shown = match filters.as_slice() {
-        _ if sunlit => SUN.to_owned(),
         [] => shown,
         [filter] => format!("{shown} × {filter}"),
         many => format!("{shown} × {} filters", many.len()),
@@ -220,7 +274,7 @@ fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
         hint.extend(["\nFilter: ", filter]);
     }
     // Where there is a filter, it is taken off beside the list.
-    let off = if sunlit || filters.is_empty() { 0.0 } else { ROW };
+    let off = if filters.is_empty() { 0.0 } else { ROW };
     let whole = ui.available_rect_before_wrap();
     ui.set_max_width(whole.width() - off);
     if off > 0.0 {
@@ -232,37 +286,61 @@ fn light(ui: &mut Ui, context: &mut PaneContext<'_>) {
         }
     }
     if let Ok(Ok(cct)) = context.scene.light_temperature() {
-        hint.extend(["\nDuv ", &signed(cct.duv)]);
+        hint.extend([format!("\nCCT {:.0} K, Duv {}", cct.temperature.get(), signed(cct.duv))]);
     }
     actions(ui, ("Light", &hint), &shown, context, conditions::lights);
 }
 
-fn temperature_caption(context: &PaneContext<'_>, wide: bool) -> &'static str {
-    match context.scene.document.light {
-        Light::Set(_) if !wide => "Temperature",
-        Light::BlackBody | Light::Daylight if !wide => "Temperature of light",
-        Light::Set(_) => "Temperature (marks the loci)",
-        Light::BlackBody => "Temperature (of the light)",
-        Light::Daylight => "Temperature (of daylight)",
+/// Says that the pictures are under another light; a click puts them under this one.
+fn sunlit(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let hint = format!(
+        "The pictures are under {SUN}, balanced to {BALANCE}, by the choice Light and white balance in their settings. Click: \
+         they take the light of this bar."
+    );
+    let button = ui.add_sized(ui.available_size(), Button::new("pictures: sun").small());
+    if button.on_hover_text(hint).clicked() {
+        let mut to = context.scene.document.render.clone();
+        to.sunlight = false;
+        context.push(Action::Render(RenderAction::Set { what: "Light and white balance", to: Box::new(to) }));
     }
 }
 
-fn temperature(ui: &mut Ui, slider_width: f32, context: &mut PaneContext<'_>) {
+/// What lives with the light: its judgment, filters, white balance.
+fn beside_light(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let mut commands = Vec::new();
+    let white = white_in_words(&context.scene.document.white);
+    let hint = format!("Judge the light; filters; white balance (now {white})");
+    let words = ("⋯", "Filter and white balance", hint.as_str());
+    let (button, chosen) = pick_list::menu(ui, words, &context.theme, || {
+        let judge = (Line::new("Judge this light…", false), Some(Command::GoTo(PaneKind::LIGHT)));
+        let listed = |all: Listing, heading: &str| {
+            let lines = all(&context.scene).into_iter().map(|(line, action)| (line, action.map(Command::Do)));
+            std::iter::once((Line::heading(heading), None)).chain(lines).collect::<Vec<_>>()
+        };
+        let all = std::iter::once(judge)
+            .chain(listed(conditions::whites, "White balance"))
+            .chain(listed(conditions::filters, "Filters"));
+        let (lines, made): (Vec<Line>, Vec<Option<Command>>) = all.unzip();
+        commands = made;
+        lines
+    });
+    widgets::labeled(&button, egui::Role::Button, format!("White balance: {white}"));
+    if let Some(command) = chosen.and_then(|index| commands.swap_remove(index)) {
+        context.push(command);
+    }
+}
+
+fn white_in_words(white: &WhiteBalanceChoice) -> String {
+    match white {
+        WhiteBalanceChoice::Unity => "Unity".to_owned(),
+        WhiteBalanceChoice::Light(name) => name.clone(),
+        WhiteBalanceChoice::Daylight(kelvin) => format!("Daylight {kelvin:.0} K"),
+        WhiteBalanceChoice::BlackBody(kelvin) => format!("Blackbody {kelvin:.0} K"),
+    }
+}
+
+fn temperature(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let now = context.scene.document.temperature_k;
-    let mut set = None;
-    let mut mired = 1e6 / now;
-    ui.spacing_mut().slider_width = slider_width - UNIT;
-    let slider = Slider::new(&mut mired, MIRED[1]..=MIRED[0]).show_value(false).step_by(0.0);
-    let slider = ui.add(slider);
-    slider.widget_info(|| egui::WidgetInfo::slider(true, now, "Temperature, evenly in mired"));
-    if slider.changed() {
-        let kelvin = 1e6 / mired;
-        // To ten kelvins: the precision of a drag and of reading.
-        set = Some((kelvin / 10.0).round() * 10.0);
-    }
-    if !slider.is_pointer_button_down_on() {
-        slider.on_hover_text("Drag: evenly in mired (10⁶/T), as in the strip below the diagram");
-    }
     let [coldest, hottest] = crate::document::LOCUS_RANGE_K;
     let coldest = if context.scene.document.light == Light::Daylight { 4000.0 } else { coldest };
     let field = NumberField {
@@ -272,12 +350,16 @@ fn temperature(ui: &mut Ui, slider_width: f32, context: &mut PaneContext<'_>) {
         speed: 10.0,
         unit: "K",
         name: "Temperature in kelvins",
-        hint: "Temperature in kelvins: drag, or click and type (T)",
+        hint: if matches!(context.scene.document.light, Light::Set(_)) {
+            "Temperature that is marked on the loci: drag, or click and type (T)"
+        } else {
+            "Temperature of the light, marked on the loci: drag, or click and type (T)"
+        },
     };
-    let (rect, _) = ui.allocate_exact_size(Vec2::new(66.0, ROW), Sense::hover());
+    let (rect, _) = ui.allocate_exact_size(Vec2::new(ui.available_width().min(66.0), ROW), Sense::hover());
     let focus = std::mem::take(&mut context.view.focus_temperature);
     let matters = Condition::Temperature.matters(context);
-    set = field.show(ui, rect, focus && matters, context).or(set);
+    let set = field.show(ui, rect, focus && matters, context);
     if !matters && (focus || set.is_some()) {
         context.view.say(without_effect(context));
     }
@@ -290,7 +372,6 @@ fn temperature(ui: &mut Ui, slider_width: f32, context: &mut PaneContext<'_>) {
 fn without_effect(context: &PaneContext<'_>) -> String {
     let words = format!("The temperature has no effect on the panes of {}", context.view.saved.workspace.label());
     let light = match &context.scene.document.light {
-        _ if shows_sunlight(context) => SUN,
         Light::Set(name) if Condition::Light.matters(context) => name,
         _ => return format!("{words}."),
     };
@@ -305,20 +386,6 @@ fn patches(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let shown = if five { format!("Five of {short}") } else { short };
     let hint = "The reflectances shown: charts, skin, leaves, yours.";
     actions(ui, ("Patches", hint), &shown, context, conditions::patches);
-}
-
-fn white(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let now = context.scene.document.white.clone();
-    let shown = match &now {
-        WhiteBalanceChoice::Unity => "Unity".to_owned(),
-        WhiteBalanceChoice::Light(name) => name.clone(),
-        WhiteBalanceChoice::Daylight(kelvin) => format!("Daylight {kelvin:.0} K"),
-        WhiteBalanceChoice::BlackBody(kelvin) => format!("Blackbody {kelvin:.0} K"),
-    };
-    let shown = if shows_sunlight(context) { BALANCE.to_owned() } else { shown };
-    let hint = "White-balance target: the RGB that a perfect diffuser under the light is mapped to (Eq 11). With a \
-                fitted color transform it changes camera RGB only; the matrix compensates for it.";
-    actions(ui, ("White balance", hint), &shown, context, conditions::whites);
 }
 
 fn transform(ui: &mut Ui, context: &mut PaneContext<'_>) {
@@ -348,4 +415,15 @@ fn difference(ui: &mut Ui, context: &mut PaneContext<'_>) {
         TransformChoice::Observer(_) => "Metric of the difference from the reference.",
     };
     actions(ui, ("Difference", hint), now.name(transform.is_eq_13()), context, conditions::differences);
+}
+
+/// One small list, in the color of a warning while differences are not drawn as they are.
+fn exaggeration(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let now = context.scene.document.exaggeration;
+    if now != Exaggeration::One {
+        ui.visuals_mut().override_text_color = Some(context.theme.warning);
+    }
+    let hint = "Differences from the reference as they are drawn, in the diagram, differences, swatches and pictures; \
+                numbers stay as they are.";
+    actions(ui, ("Exaggerate", hint), now.label(), context, conditions::exaggerations);
 }

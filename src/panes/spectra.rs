@@ -24,12 +24,12 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         return;
     }
     if context.scene.sources().iter().all(|source| !source.visible) {
-        return widgets::say(ui, body, "Nothing to draw. Tick a camera.", context.theme.weak);
+        return widgets::say(ui, body, "Nothing to draw. Add a camera at the left.", context.theme.weak);
     }
     let each = 2 + context.scene.sources().iter().filter(|source| source.visible).count();
     let wanted = context.view.saved.spectra_layout;
-    // A small pane of another workspace would show a cut list of plots without their axis.
-    let is_small = PaneKind::SPECTRA.group() != context.view.saved.workspace && body.height() < each as f32 * LEAST;
+    // A small view would show a cut list of plots without their axis.
+    let is_small = context.view.maximized != Some(PANE.kind) && body.height() < each as f32 * LEAST;
     if is_small {
         context.view.saved.spectra_layout = SpectraLayout::Overlay;
     }

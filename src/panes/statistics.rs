@@ -9,7 +9,7 @@ use crate::panes::widgets;
 use crate::panes::widgets::table::{DataTable, show_pairs};
 use crate::render_service::made::MadePictures;
 use crate::theme::UNIT;
-use crate::workspaces::{PaneKind, Workspace};
+use crate::workspaces::PaneKind;
 
 /// Stages in the order they follow each other, as counted and as shown.
 const STAGES: [(&str, &str); 14] = [
@@ -43,7 +43,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
 fn pictures(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let Some(shot) = context.render_service.frame().cloned() else {
         ui.label("No picture was rendered yet.");
-        context.button(ui, "Show Render", "", Command::Show(Workspace::Render));
+        context.button(ui, "Show pictures", "", Command::GoTo(PaneKind::RENDER));
         return;
     };
     if let Some(image) = shot.made().and_then(MadePictures::image) {

@@ -80,7 +80,7 @@ fn show_facts(ui: &mut Ui, rect: Rect, arrangement: &Arrangement, context: &Pane
     let width = lines::right_aligned(ui, rect, &words, TextStyle::Small, context.theme.weak);
     let (place, id) = (rect.with_min_x(rect.right() - width), ui.scope_id().with("facts"));
     let response = widgets::named(ui, place, id, egui::Role::Label, &words);
-    let shows_pictures = arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::RENDER);
+    let shows_pictures = arrangement.shows(PaneKind::RENDER);
     let is_of_pictures = shows_pictures && context.render_service.frame().is_some();
     response.on_hover_text(if is_of_pictures { RENDER_FACTS } else { FACTS });
 }
@@ -150,6 +150,7 @@ fn buttons(status: &Status) -> Vec<LineButton> {
 fn offered(offer: &Offer, is_alone: bool) -> String {
     match offer {
         Offer::Open(path) => format!("Open {}", file_name(path)),
+        Offer::Raw(_) => "Read a chart's raw values".to_owned(),
         Offer::Use(kind, _) if is_alone => {
             kind.used_as().map_or_else(|| "Compare camera".to_owned(), |used| format!("Use as {used}"))
         }
@@ -163,12 +164,13 @@ fn take(offer: &Offer, context: &mut PaneContext<'_>) {
     left.retain(|other| other != offer);
     context.view.say(match offer {
         Offer::Use(..) => format!("{}: done. Ctrl+Z undoes this.", offered(offer, false)),
-        Offer::Open(_) => String::new(),
+        Offer::Open(_) | Offer::Raw(_) => String::new(),
     });
     context.view.offer(left, true);
     context.push(match offer {
         Offer::Use(kind, name) => Command::Do(Action::Imported(ImportedAction::Use(*kind, name.clone()))),
         Offer::Open(path) => Command::OpenPath(path.clone()),
+        Offer::Raw(path) => Command::ReadRecorded(path.clone()),
     });
 }
 
@@ -279,7 +281,8 @@ fn file_progress(ui: &mut Ui, rect: Rect, progress: &Progress, context: &mut Pan
 }
 
 fn report_progress(ui: &mut Ui, rect: Rect, report: &Waiting<ReportJob>, context: &mut PaneContext<'_>) {
-    let words = format!("Report: {}, {} of {}", Report::name(report.done), report.done + 1, report.stages.len());
+    let name = report.stages.first().map_or_else(String::new, |job| job.report.name(report.done));
+    let words = format!("Report: {name}, {} of {}", report.done + 1, report.stages.len());
     let hint = "Stop the report; the files so far stay (Esc)".to_owned();
     line(ui, rect, &words, context.theme.text, &[("Stop".to_owned(), hint, Press::Run(Command::StopReport))], context);
 }
@@ -335,7 +338,7 @@ fn describe(thing: &PlotItem, context: &PaneContext<'_>) -> String {
 
 fn facts(arrangement: &Arrangement, context: &PaneContext<'_>) -> Vec<String> {
     let scene = &context.scene;
-    if arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::RENDER) {
+    if arrangement.shows(PaneKind::RENDER) {
         return render_facts(context);
     }
     let mut facts = Vec::new();
@@ -343,7 +346,7 @@ fn facts(arrangement: &Arrangement, context: &PaneContext<'_>) -> Vec<String> {
         let milliseconds = scene.results.last_work().as_secs_f64() * 1e3;
         facts.push(format!("updated in {} ms", fixed(milliseconds, usize::from(milliseconds < 100.0))));
     }
-    if arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::METRICS)
+    if arrangement.shows(PaneKind::METRICS)
         && let Some((done, all)) = Ranking::seen(context.later).progress()
     {
         facts.push(format!("Computing: {done} of {all}"));
@@ -351,7 +354,7 @@ fn facts(arrangement: &Arrangement, context: &PaneContext<'_>) -> Vec<String> {
     }
     let sources = scene.sources();
     let shown = || sources.iter().filter(|source| source.visible);
-    if arrangement.panes.iter().any(|(pane, _)| *pane == PaneKind::CHROMATICITY) && scene.document.overlays.loci {
+    if arrangement.shows(PaneKind::CHROMATICITY) && scene.document.overlays.loci {
         let loci = shown().filter_map(|source| scene.locus(source.kind, &source.name).ok());
         let methods: Vec<LocusMethod> = loci.map(|locus| locus.method).collect();
         facts.extend(error_words(&methods));

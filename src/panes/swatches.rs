@@ -1,7 +1,7 @@
 //! Patches as colors.
 
 use chromascope_figure::Shape;
-use egui::{Id, Rect, ScrollArea, Ui, Vec2};
+use egui::{Id, Rect, RectAlign, ScrollArea, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
 use crate::action::{Action, SceneAction};
@@ -12,10 +12,15 @@ use crate::theme::UNIT;
 use crate::view::SwatchLayout;
 use crate::workspaces::PaneKind;
 
-const FOOTER: f32 = 24.0;
+const FOOTER: f32 = 18.0;
+/// Height of the pane from which on it has a line below.
+const WITH_FOOTER: f32 = 230.0;
 
-pub const PANE: Pane =
-    Pane::new(PaneKind::SWATCHES, "Swatches", show).figure(&swatches::KIND).under_conditions().table();
+pub const PANE: Pane = Pane::new(PaneKind::SWATCHES, "Swatches", show)
+    .settings(settings)
+    .figure(&swatches::KIND)
+    .under_conditions()
+    .table();
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::body(ui, &PANE, rect, context, switches);
@@ -24,9 +29,13 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     }
     let body = widgets::lines::caution(ui, body, context);
     ui.painter().rect_filled(body, 0.0, context.theme.surround);
-    let (body, slot) = footer(ui, body, context);
+    let (mut body, slot) = footer(ui, body, context);
     let size = [f64::from(body.width()), f64::from(body.height())];
     let built = swatches::build(&context.scene, &context.view.look(PANE.kind), size);
+    if built.height as f32 > body.height() + 1.0 {
+        // Room for the hint at more.
+        body.max.y = body.max.y.min(slot.top());
+    }
     let mut child = widgets::clipped(ui, "swatches", body);
     let height = (built.height as f32).max(body.height());
     let shown = ScrollArea::vertical().id_salt("swatches scroll").auto_shrink(false).show(&mut child, |ui| {
@@ -38,36 +47,30 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     }
 }
 
-/// The line below the swatches: a button that selects the worst patch, and the scale of the bars. Returns what is left above, and
-/// the place of the hint at more rows.
-fn footer(ui: &mut Ui, body: Rect, context: &mut PaneContext<'_>) -> (Rect, Rect) {
-    let Some((words, thing)) = swatches::worst(&context.scene) else {
-        return (body, body.with_min_y(body.bottom() - FOOTER));
-    };
-    let color = context.theme.on_surround;
+fn settings(ui: &mut Ui, body: Rect, context: &mut PaneContext<'_>) {
+    widgets::scroll(ui, (PaneKind::SETTINGS, "swatches"), body, context, |ui, context| {
+        widgets::note(ui, "Within a swatch");
+        ui.horizontal_wrapped(|ui| widgets::switch(ui, &mut context.view.saved.swatch_style));
+        ui.checkbox(&mut context.view.saved.difference_bars, "Bars under swatches (D)");
+        widgets::note(ui, "Surround");
+        ui.horizontal_wrapped(|ui| widgets::switch(ui, &mut context.view.saved.surround));
+    });
+}
+
+/// The scale of the bars below the swatches, where there is room for it or differences are not drawn as they are. Returns what is
+/// left above, and the place of the hint at more rows.
+fn footer(ui: &Ui, body: Rect, context: &PaneContext<'_>) -> (Rect, Rect) {
+    let exaggerated = context.scene.document.exaggeration.note();
+    let bars = context.view.saved.difference_bars;
+    let line = body.with_min_y(body.bottom() - FOOTER);
+    if exaggerated.is_none() && !(bars && body.height() > WITH_FOOTER) {
+        return (body, line);
+    }
+    let words = exaggerated.filter(|_| !bars).unwrap_or_else(|| swatches::bar_scale(&context.scene));
+    let at = line.right_center() - Vec2::new(2.0 * UNIT, 0.0);
     let font = egui::FontId::proportional(crate::theme::SMALL);
-    let scale = context.view.saved.difference_bars.then(|| swatches::bar_scale(&context.scene));
-    let scale = scale.map(|words| ui.painter().layout_no_wrap(words, font.clone(), color));
-    let inner = body.width() - 4.0 * UNIT;
-    let padding = ui.spacing().button_padding;
-    let text = ui.painter().layout(words.clone(), font, color, inner - 2.0 * padding.x);
-    let size = (text.size() + 2.0 * padding + Vec2::splat(1.0)).max(Vec2::new(0.0, FOOTER - 6.0));
-    let beside = scale.as_ref().is_none_or(|scale| size.x + 4.0 * UNIT + scale.size().x <= inner);
-    let height = size.y + 6.0 + if beside { 0.0 } else { 16.0 };
-    let top = body.bottom() - height;
-    let place = Rect::from_min_size(body.left_bottom() + Vec2::new(2.0 * UNIT, 2.0 - height), size);
-    let response = ui.put(place, egui::Button::new(egui::RichText::new(words).small()).wrap());
-    if response.on_hover_text("Largest difference: click to select it").clicked() {
-        context.view.selected = Some(thing);
-    }
-    if let Some(scale) = scale {
-        let middle = if beside { place.center().y } else { body.bottom() - 9.0 };
-        let at = egui::Pos2::new(body.right() - 2.0 * UNIT - scale.size().x, middle - 0.5 * scale.size().y);
-        ui.painter().galley(at, scale, color);
-    }
-    let rest = body.with_max_y(top);
-    let beside_button = egui::Pos2::new(place.right() + 2.0 * UNIT, place.top());
-    (rest, Rect::from_min_size(beside_button, Vec2::new(body.right() - beside_button.x, place.height())))
+    let written = ui.painter().text(at, egui::Align2::RIGHT_CENTER, words, font, context.theme.on_surround);
+    (body.with_max_y(line.top()), line.with_max_x(written.left() - UNIT))
 }
 
 fn board(ui: &mut Ui, area: Rect, built: &swatches::Built, context: &mut PaneContext<'_>) {
@@ -96,7 +99,8 @@ fn board(ui: &mut Ui, area: Rect, built: &swatches::Built, context: &mut PaneCon
     }
     if let Some(thing) = thing {
         let lines = chromaticity::brief(&context.scene, &thing);
-        widgets::read_at_pointer(&shown.response, &lines);
+        let pane = area.intersect(ui.clip_rect());
+        widgets::read_beside(&shown.response, pane, [RectAlign::LEFT, RectAlign::RIGHT], &lines);
     }
 }
 
@@ -115,5 +119,9 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
         ui.ctx().request_repaint();
     }
     ui.add_space(UNIT);
-    widgets::switch(ui, &mut context.view.saved.swatch_style);
+    if let Some((words, thing)) = swatches::worst(&context.scene)
+        && ui.button("Worst").on_hover_text(format!("{words}: click to select it")).clicked()
+    {
+        context.view.selected = Some(thing);
+    }
 }

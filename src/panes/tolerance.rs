@@ -37,8 +37,8 @@ fn choice(ui: &mut Ui, context: &mut PaneContext<'_>) {
     }
     ui.add_space(UNIT);
     let mut keep = on;
-    let hint = "On: pictures are rendered within the tolerance. Off: at quality Full; the Render workspace has more \
-                qualities.";
+    let hint = "On: pictures are rendered within the tolerance. Off: at quality Full; the settings of pictures have \
+                more qualities.";
     if ui.checkbox(&mut keep, "Apply to renders").on_hover_text(hint).changed() {
         let quality = if keep { QualityLevel::Tolerance } else { QualityLevel::Full };
         set(context, "Quality", |settings| settings.quality = quality);

@@ -1,11 +1,13 @@
 //! Parts that more than one pane uses.
 
 pub mod conditions;
+pub mod differences;
 pub mod facts;
 pub mod lines;
 pub mod number_field;
 pub mod pick_list;
 pub mod pixel;
+pub mod sets;
 pub mod table;
 pub mod tolerance;
 pub mod walk;
@@ -18,7 +20,6 @@ use egui::{
     Align, Align2, Button, Color32, FontId, Key, Layout, Modifiers, Rect, Response, RichText, ScrollArea, Sense, Shape,
     Ui, UiBuilder, Vec2,
 };
-use pick_list::Line;
 
 use crate::command::Command;
 use crate::export::FigureForm;
@@ -29,7 +30,7 @@ use crate::panes::context::{Pane, PaneContext};
 use crate::plot_item::SensorId;
 use crate::scene::ComparedSensor;
 use crate::theme::{self, ROW, Theme, UNIT};
-use crate::workspaces::{PaneKind, Workspace};
+use crate::workspaces::{PaneKind, Side, Workspace};
 
 pub use lines::{focus_rim, labeled, named};
 
@@ -41,7 +42,8 @@ const SOUGHT: u64 = 4;
 
 pub const HEADER: f32 = 32.0;
 
-/// Draws a pane's frame and header and returns the rectangle below it. `switches` adds the pane's own controls.
+/// Draws a pane's frame and header and returns the rectangle below it. `switches` adds the pane's own controls: beside the
+/// title or tabs, or where these leave no room, below.
 pub fn pane(
     ui: &mut Ui,
     pane: &Pane,
@@ -50,22 +52,37 @@ pub fn pane(
     switches: impl FnOnce(&mut Ui, &mut PaneContext<'_>),
 ) -> Rect {
     ground(ui, pane.kind, rect, context);
-    let header = Rect::from_min_size(rect.min, Vec2::new(rect.width(), HEADER)).shrink2(Vec2::new(2.0 * UNIT, UNIT));
+    let mut header =
+        Rect::from_min_size(rect.min, Vec2::new(rect.width(), HEADER)).shrink2(Vec2::new(2.0 * UNIT, UNIT));
     let layout = Layout::left_to_right(Align::Center);
     let mut bar = ui.new_child(UiBuilder::new().id_salt(("header", pane.kind)).max_rect(header).layout(layout));
     bar.set_clip_rect(header.expand(2.0).intersect(ui.clip_rect()));
-    title_menu(&mut bar, pane, context);
-    // The buttons on the right are laid out first, so that a narrow pane cuts switches, never the way to close it.
+    let slot = slot_of(pane, context);
+    tabs(&mut bar, pane, slot, context);
+    // The buttons on the right are laid out first, so that a narrow pane cuts switches, never the way to its figure.
     let buttons_width = 4.0 * ROW + 3.0 * UNIT;
-    let room = Rect::from_min_max(bar.cursor().min, egui::pos2(header.right() - buttons_width, header.bottom()));
+    let mut left = bar.cursor().min.x;
+    let key = ui.scope_id().with(("width of switches", pane.kind));
+    let wanted: f32 = ui.data(|data| data.get_temp(key)).unwrap_or_default();
+    if slot.is_some() && header.right() - left < buttons_width + wanted {
+        header = header.translate(Vec2::new(0.0, HEADER));
+        left = header.left();
+    }
+    let room = Rect::from_min_max(egui::pos2(left, header.top()), header.max - Vec2::new(buttons_width, 0.0));
     let mut left = ui.new_child(UiBuilder::new().id_salt(("switches", pane.kind)).max_rect(room).layout(layout));
     left.set_clip_rect(room.expand(2.0).intersect(ui.clip_rect()));
     switches(&mut left, context);
+    let taken = left.min_rect().width();
+    if taken > wanted || taken + 2.0 * ROW < wanted {
+        // The next frame gives them the room that they need.
+        ui.data_mut(|data| data.insert_temp(key, taken));
+        ui.ctx().request_repaint();
+    }
     let right = header.with_min_x(header.right() - buttons_width);
     let to_left = Layout::right_to_left(Align::Center);
     let mut buttons = ui.new_child(UiBuilder::new().id_salt(("buttons", pane.kind)).max_rect(right).layout(to_left));
-    header_buttons(&mut buttons, pane, context);
-    rect.with_min_y(rect.top() + HEADER)
+    header_buttons(&mut buttons, pane, slot, context);
+    rect.with_min_y(header.bottom() + UNIT)
 }
 
 /// The ground of a pane, which takes the keyboard where it is pressed.
@@ -107,6 +124,18 @@ pub fn middle(ui: &mut Ui, salt: impl egui::AsIdSalt, body: Rect, size: Vec2) ->
 pub fn window<'a>(title: impl egui::IntoAtoms<'a>, id: &'static str, place: (Align2, Vec2)) -> egui::Window<'a> {
     let window = egui::Window::new(title).id(egui::Id::unique(id));
     window.collapsible(false).resizable(false).anchor(place.0, place.1)
+}
+
+/// Keeps what lies below an open window from the pointer and the keyboard. True if something else is pressed.
+pub fn alone(ctx: &egui::Context, window: &Response) -> bool {
+    ctx.memory_mut(|memory| memory.set_modal_layer(window.layer_id));
+    // A modal layer has the keys to itself, but not the pointer.
+    let (layer, screen) = (window.layer_id, ctx.content_rect());
+    let below = egui::Area::new(layer.id.with("below")).order(layer.order).fixed_pos(screen.min);
+    below.show(ctx, |ui| ui.set_min_size(screen.size()));
+    ctx.move_to_top(layer);
+    let at = ctx.input(|input| input.pointer.interact_pos().filter(|_| input.pointer.any_pressed()));
+    at.is_some_and(|at| !window.rect.contains(at))
 }
 
 /// Draws a sentence in the middle of a rectangle.
@@ -181,39 +210,56 @@ pub fn scrolling_pane(
     scroll(ui, (pane.kind, pane.title), body, context, content);
 }
 
-/// The title, which opens a menu of panes for this place.
-fn title_menu(ui: &mut Ui, pane: &Pane, context: &mut PaneContext<'_>) {
+/// Workspace and place in it that a pane stands in, if others can stand there too.
+fn slot_of(pane: &Pane, context: &PaneContext<'_>) -> Option<(Workspace, usize)> {
     let workspace = context.view.saved.workspace;
-    let (panes, theme) = (context.panes, context.theme);
-    let mut kinds = Vec::new();
-    let words = (pane.title, "panes", "Show another pane here");
-    let (title, chosen) = pick_list::menu(ui, words, &theme, || {
-        let mut lines = Vec::new();
-        for group in Workspace::ALL {
-            let others = panes.iter().filter(|other| other.kind != PaneKind::LIBRARY && other.kind.group() == group);
-            lines.push(Line::heading(group.label()));
-            kinds.push(None);
-            for other in others {
-                lines.push(Line::new(other.title, other.kind == pane.kind));
-                kinds.push(Some(other.kind));
-            }
+    let at = context.view.places().iter().position(|place| *place == Some(pane.kind))?;
+    let slot = workspace.slots()[at].filter(|_| !context.view.numerics)?;
+    let others = context.panes.iter().filter(|other| slot.takes(other.kind)).count();
+    (others > 1).then_some((workspace, at))
+}
+
+/// The title, or where others can stand in its place, tabs of these.
+fn tabs(ui: &mut Ui, pane: &Pane, slot: Option<(Workspace, usize)>, context: &mut PaneContext<'_>) {
+    let enters = context.view.focused == Some(pane.kind) && std::mem::take(&mut context.view.tab_enters);
+    let Some((workspace, at)) = slot else {
+        let title = ui.add(egui::Label::new(pane.title).sense(Sense::focusable_noninteractive()));
+        if enters {
+            title.request_focus();
         }
-        lines
-    });
-    if let Some(other) = chosen.and_then(|index| kinds.swap_remove(index)) {
-        context.view.saved.layout.replace(workspace, pane.kind, other);
-        ui.ctx().request_repaint();
-    }
-    if context.view.focused == Some(pane.kind) && std::mem::take(&mut context.view.tab_enters) {
-        title.request_focus();
+        return;
+    };
+    ui.spacing_mut().item_spacing.x = 1.0;
+    ui.spacing_mut().button_padding.x = UNIT;
+    let panes = context.panes.iter().filter(|other| workspace.slots()[at].is_some_and(|slot| slot.takes(other.kind)));
+    for other in panes {
+        let on = other.kind == pane.kind;
+        let fill = if on { context.theme.control } else { context.theme.panel };
+        let tab = ui.add(Button::selectable(on, RichText::new(other.tab).small()).fill(fill));
+        tab.widget_info(|| egui::WidgetInfo::selected(egui::Role::Tab, true, on, other.tab));
+        if on && enters {
+            tab.request_focus();
+        }
+        if tab.clicked() && !on {
+            context.view.saved.layout.put(workspace, at, other.kind);
+            context.view.focused = Some(other.kind);
+            if context.view.maximized == Some(pane.kind) {
+                context.view.maximized = Some(other.kind);
+            }
+            ui.ctx().request_repaint();
+        }
     }
 }
 
-fn header_buttons(ui: &mut Ui, pane: &Pane, context: &mut PaneContext<'_>) {
+fn header_buttons(ui: &mut Ui, pane: &Pane, slot: Option<(Workspace, usize)>, context: &mut PaneContext<'_>) {
     let (kind, title) = (pane.kind, pane.title);
     let maximized = context.view.maximized == Some(kind);
-    if icon_button(ui, Icon::Close, &format!("Close {title}")).clicked() {
-        context.push(if maximized { Command::Maximize(kind) } else { Command::TogglePane(kind) });
+    if context.view.card == Some(kind) && icon_button(ui, Icon::Close, &format!("Close {title}")).clicked() {
+        context.view.card = None;
+    }
+    let words = format!("Fold {} away", pane.tab);
+    if slot == Some((Workspace::Compare, 1)) && !maximized && icon_button(ui, Icon::Fold, &words).clicked() {
+        context.push(Command::Toggle(Side::Lower));
     }
     let words = if maximized { "Restore" } else { "Maximize" };
     if !kind.is_controls() && icon_button(ui, Icon::Maximize, &format!("{words} {title} (F)")).clicked() {
@@ -282,6 +328,7 @@ pub enum Icon {
     Table { on: bool },
     Export,
     Maximize,
+    Fold,
     Close,
     Undo,
     Redo,
@@ -325,6 +372,10 @@ pub fn icon_button(ui: &mut Ui, icon: Icon, name: &str) -> Response {
                 line(at(5.0 * corner, -5.0 * corner), at(1.0 * corner, -5.0 * corner));
                 line(at(5.0 * corner, -5.0 * corner), at(5.0 * corner, -corner));
             }
+        }
+        Icon::Fold => {
+            line(at(-4.0, -2.0), at(0.0, 2.0));
+            line(at(4.0, -2.0), at(0.0, 2.0));
         }
         Icon::Close => {
             line(at(-4.0, -4.0), at(4.0, 4.0));
@@ -401,15 +452,25 @@ pub fn source_key(ui: &mut Ui, source: &ComparedSensor, theme: &Theme) -> Respon
 }
 
 pub fn read_at_pointer(response: &Response, lines: &[String]) {
-    response.clone().on_hover_ui_at_pointer(|ui| {
-        for (index, line) in lines.iter().enumerate() {
-            if index == 0 {
-                ui.strong(line);
-            } else {
-                ui.label(line);
-            }
+    response.clone().on_hover_ui_at_pointer(|ui| told(ui, lines));
+}
+
+/// Shows lines of text beside what they explain, where there is room on one of these sides, the first of them first.
+pub fn read_beside(response: &Response, what: Rect, sides: [egui::RectAlign; 2], lines: &[String]) {
+    let mut tooltip = egui::Tooltip::for_enabled(response);
+    tooltip.popup = tooltip.popup.anchor(what).align(sides[0]).align_alternatives(&sides[1..]);
+    tooltip.show(|ui| told(ui, lines));
+}
+
+/// A heading and the lines below it.
+pub fn told(ui: &mut Ui, lines: &[String]) {
+    for (index, line) in lines.iter().enumerate() {
+        if index == 0 {
+            ui.strong(line);
+        } else {
+            ui.label(line);
         }
-    });
+    }
 }
 
 /// Selects all text of a field, so that typing replaces it.

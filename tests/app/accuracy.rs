@@ -11,7 +11,7 @@ use chromascope::panes;
 use chromascope::profiler::{Profiler, SceneRun, Subject};
 use chromascope::scene::Scene;
 use chromascope::view::Shows;
-use chromascope::workspaces::{PaneKind, Workspace};
+use chromascope::workspaces::PaneKind;
 use chromascope_core::accuracy::RelTolerance;
 use chromascope_core::reflectance::Normalization;
 use chromascope_core::render::QualityLevel;
@@ -28,7 +28,7 @@ type Window = Harness<'static, chromascope::app::ChromascopeApp>;
 /// The window in Numerics, with the scene as it starts measured.
 fn measured() -> Window {
     let mut window = open([1280.0, 800.0], egui::Theme::Dark);
-    window.state_mut().push(Command::Show(Workspace::Numerics));
+    window.state_mut().view.show(PaneKind::METHODS);
     window.run_steps(2);
     window.get_all_by_label("Run").last().expect("there is a way to measure").click();
     window.run_steps(2);
@@ -48,7 +48,7 @@ fn run(window: &Window) -> std::sync::Arc<SceneRun> {
 #[test]
 fn nothing_is_measured_unasked() {
     let mut window = open([1280.0, 800.0], egui::Theme::Light);
-    window.state_mut().push(Command::Show(Workspace::Numerics));
+    window.state_mut().view.show(PaneKind::METHODS);
     window.run_steps(3);
     assert!(Profiler::busy(&window.state().later).is_none());
     assert!(window.state().profiler.measured.run.is_none());
@@ -141,7 +141,7 @@ fn a_hidden_camera_is_told_of() {
     window.run_steps(2);
     window.state_mut().push(Command::MeasureScene);
     window.run_steps(2);
-    assert_eq!(window.state().view.saved.workspace, Workspace::Numerics, "what is measured is shown");
+    assert!(window.state().view.numerics, "what is measured is shown");
     take_in(&mut window);
     let run = run(&window);
     let trial = &run.trials[0];
@@ -152,7 +152,7 @@ fn a_hidden_camera_is_told_of() {
 #[test]
 fn a_tolerance_is_kept_by_pictures_and_each_source_says_how() {
     let mut window = open([1280.0, 800.0], egui::Theme::Light);
-    window.state_mut().push(Command::Show(Workspace::Numerics));
+    window.state_mut().view.show(PaneKind::METHODS);
     window.run_steps(2);
     let render = |window: &Window| window.state().history.document().render.clone();
     assert_eq!(render(&window).quality, QualityLevel::Full);
@@ -165,7 +165,7 @@ fn a_tolerance_is_kept_by_pictures_and_each_source_says_how() {
         4,
         "one for each source"
     );
-    window.state_mut().push(Command::Show(Workspace::Render));
+    window.state_mut().view.show(PaneKind::RENDER);
     window.run_steps(2);
     window.state().render_service.wait();
     window.run_steps(3);
@@ -184,7 +184,7 @@ fn a_tolerance_is_kept_by_pictures_and_each_source_says_how() {
 #[test]
 fn a_source_without_a_plan_says_why() {
     let mut window = open([1280.0, 1000.0], egui::Theme::Light);
-    window.state_mut().push(Command::Show(Workspace::Numerics));
+    window.state_mut().view.show(PaneKind::METHODS);
     let flat =
         RenderSettings { normalization: Normalization::Lambertian, ..window.state().history.document().render.clone() };
     window.state_mut().push(Action::Render(RenderAction::Set { what: "Normalization", to: Box::new(flat) }));
@@ -202,7 +202,7 @@ fn a_source_without_a_plan_says_why() {
 #[test]
 fn a_typed_tolerance_is_taken_as_it_is_and_ticks_nothing() {
     let mut window = open([1280.0, 1000.0], egui::Theme::Light);
-    window.state_mut().push(Command::Show(Workspace::Numerics));
+    window.state_mut().view.show(PaneKind::METHODS);
     window.run_steps(3);
     let render = |window: &Window| window.state().history.document().render.clone();
     for (typed, taken, shown) in [
@@ -235,7 +235,7 @@ fn type_tolerance(window: &mut Window, text: &str, key: egui::Key) {
 #[test]
 fn a_tolerance_is_refused_with_a_reason() {
     let mut window = open([1280.0, 1000.0], egui::Theme::Light);
-    window.state_mut().push(Command::Show(Workspace::Numerics));
+    window.state_mut().view.show(PaneKind::METHODS);
     window.run_steps(3);
     for (typed, words) in [
         (" ", "Enter a number"),
@@ -260,12 +260,12 @@ fn a_tolerance_is_refused_with_a_reason() {
 
 #[test]
 fn a_tolerance_that_cannot_be_is_refused_beside_its_field() {
-    for workspace in [Workspace::Numerics, Workspace::Render] {
+    for pane in [PaneKind::METHODS, PaneKind::RENDER] {
         let mut window = open([1280.0, 1000.0], egui::Theme::Light);
         let mut settings = window.state().history.document().render.clone();
         settings.quality = QualityLevel::Tolerance;
         window.state_mut().push(Action::Render(RenderAction::Set { what: "Quality", to: Box::new(settings) }));
-        window.state_mut().push(Command::Show(workspace));
+        window.state_mut().view.show(pane);
         window.run_steps(3);
         let tolerance = |window: &Window| window.state().history.document().render.tolerance;
         let text = |window: &Window| window.get_by_role_and_label(Role::TextInput, "Tolerance").value();
@@ -276,7 +276,7 @@ fn a_tolerance_that_cannot_be_is_refused_beside_its_field() {
         ] {
             type_tolerance(&mut window, typed, egui::Key::Enter);
             assert_eq!(tolerance(&window), 1e-6);
-            assert!(window.query_by_label_contains(words).is_some(), "{workspace:?} says nothing of {typed}");
+            assert!(window.query_by_label_contains(words).is_some(), "{pane:?} says nothing of {typed}");
             assert_eq!(text(&window).as_deref(), Some(typed), "what was typed stays");
         }
         type_tolerance(&mut window, "x", egui::Key::Escape);
@@ -306,7 +306,7 @@ fn a_report_of_the_bench_is_shown_and_exported() {
     let report = crate::bench::report();
     let mut window = open([1280.0, 800.0], egui::Theme::Light);
     let view = &mut window.state_mut().view;
-    view.saved.workspace = Workspace::Numerics;
+    view.show(PaneKind::METHODS);
     view.shows = Shows::Bench(Workload::DiffuseSum);
     let measured = &mut window.state_mut().profiler.measured;
     measured.reports.insert(Workload::DiffuseSum, Arc::new(Ok(report.clone())));
@@ -335,7 +335,7 @@ fn a_report_of_the_bench_is_shown_and_exported() {
 #[test]
 fn without_the_benchmark_its_place_says_how_to_get_it() {
     let mut window = open([900.0, 600.0], egui::Theme::Light);
-    window.state_mut().push(Command::Show(Workspace::Numerics));
+    window.state_mut().view.show(PaneKind::METHODS);
     window.state_mut().view.shows = Shows::Bench(Workload::DiffuseSum);
     window.run_steps(3);
     let offered = window.query_by_label("Nothing measured yet. A quick run takes some seconds.").is_some();

@@ -41,6 +41,7 @@ fn it_is_listed_compared_and_rendered() {
 fn the_windows_library_has_it() {
     let mut window = open([1280.0, 800.0], egui::Theme::Dark);
     window.state_mut().catalog = catalog();
+    window.state_mut().view.adding = true;
     window.state_mut().view.search = NAME.to_owned();
     window.run();
     window.get_by_role_and_label(Role::CheckBox, NAME).click();

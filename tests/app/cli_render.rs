@@ -19,6 +19,8 @@ use serde_json::Value;
 
 /// Little enough to be rendered by a program that was not optimized.
 const SMALL: [&str; 8] = ["--preset", "paper", "--mesh", "sphere", "--triangles", "800", "--size", "40x30"];
+/// The mesh without surroundings.
+const ALONE: [&str; 6] = ["--chart", "false", "--ground", "false", "--hair", "false"];
 const D70: [&str; 2] = ["--camera", "Nikon D70 (2007 figure)"];
 
 /// A folder of one test's own, empty.
@@ -76,7 +78,9 @@ fn as_in_the_window(samples: u32, quality: Quality) -> (Pictures, [f64; 3]) {
     };
     let (catalog, results) = (Catalog::built_in(), Results::default());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
-    let viewpoint = Orbit::of(&MeshChoice::Sphere).viewpoint(40.0 / 30.0).unwrap();
+    let viewpoint = Orbit::of(&RenderSettings { mesh: MeshChoice::Sphere, ..RenderSettings::default() })
+        .viewpoint(40.0 / 30.0)
+        .unwrap();
     let size = RasterSize { width: 40, height: 30, samples };
     let finish = Finish { size, quality, shadows: Shadows::Full, compared_samples: Some(usize::MAX), open_sky: false };
     let query = scene.pictures_of(&scene.sources(), scene.mesh_of(None).unwrap(), viewpoint, finish, None).unwrap();
@@ -346,7 +350,7 @@ fn qualities_agree_and_readings_do_not() {
     // Qualities are those of integrals over wavelength: the sky's visibility has its own.
     let small = ["--mesh", "sphere", "--triangles", "800", "--size", "16x12", "--format", "exr", "--sky", "0"];
     let of = |arguments: &[&str]| {
-        rendered(&folder, &[&small[..], &D70, arguments].concat());
+        rendered(&folder, &[&small[..], &ALONE, &D70, arguments].concat());
         read_exr(&folder.join("sphere_nikon-d70-2007.exr")).1["G"].clone()
     };
     let exact = of(&["--quality", "reference"]);
@@ -407,7 +411,7 @@ fn meshes_and_materials_come_from_files() {
     assert!(output.status.success(), "{message}");
     assert!(message.contains("using the first, dark") && message.contains("My Square.obj: "), "{message}");
     assert_eq!(pictures_in(&folder), ["my-square_nikon-d70-2007.png"]);
-    let behind = rendered(&folder, &[&arguments[..], &D70, &["--light=0,0,-1", "--sky", "0"]].concat());
+    let behind = rendered(&folder, &[&arguments[..], &ALONE, &D70, &["--light=0,0,-1", "--sky", "0"]].concat());
     assert!(behind.contains(": no light\n"), "{behind}");
 }
 
@@ -448,8 +452,8 @@ fn the_meshs_own_roughness_is_a_narrow_gloss_and_has_no_one_error() {
     let folder = folder("from_mesh");
     let by = |more: &[&str]| {
         let name = if more.is_empty() { "given.json" } else { "mesh.json" };
-        let head = ["--mesh", "head", "--triangles", "3000", "--size", "32x32", "--stats", name];
-        let said = rendered(&folder, &[&head[..], &D70, more].concat());
+        let head = ["--mesh", "head", "--triangles", "3000", "--size", "32x32", "--stats", name, "--garment", "none"];
+        let said = rendered(&folder, &[&head[..], &ALONE, &D70, more].concat());
         (said, serde_json::from_slice::<Value>(&std::fs::read(folder.join(name)).unwrap()).unwrap())
     };
     let ((said, given), (unsaid, mesh)) = (by(&[]), by(&["--sigma-from-mesh"]));

@@ -9,7 +9,7 @@ use chromascope::panes;
 use chromascope::results::Results;
 use chromascope::scene::{LOCUS_POINTS, Scene};
 use chromascope::workspaces::PaneKind;
-use chromascope_figure::{FigureRoom, Page, TextSize};
+use chromascope_figure::{FigureRoom, Mark, Page, Shape, TextSize};
 
 const PICTURED: [PaneKind; 3] = [PaneKind::CHROMATICITY, PaneKind::SWATCHES, PaneKind::SPECTRA];
 
@@ -75,8 +75,11 @@ fn text_has_its_size_on_paper_whatever_the_width() {
             let make = |room| panes::figure(pane, &scene, &FigureLook::default(), room);
             let figure = paper.laid_out(make).expect("it has a figure");
             let page = Page::new(&figure, &paper.page_style()).area;
-            let body = f64::from(TextSize::Body.points()) * mm / 25.4 * 72.0 / page.width();
-            assert!((body - font_pt).abs() < 0.01, "{pane:?} at {mm} mm: {body} pt instead of {font_pt} pt");
+            let text = f64::from(TextSize::Small.points()) * mm / 25.4 * 72.0 / page.width();
+            assert!((text - font_pt).abs() < 0.01, "{pane:?} at {mm} mm: {text} pt instead of {font_pt} pt");
+            let mut marks = figure.panels.iter().flat_map(|panel| &panel.marks);
+            let is_larger = |mark: &Mark| matches!(mark.shape, Shape::Text { size: TextSize::Body, .. });
+            assert!(!marks.any(is_larger), "{pane:?}: all text has one size");
             let file = pdf(&figure, &paper.colors(), paper).expect("a PDF");
             assert_eq!(file, pdf(&figure, &paper.colors(), paper).unwrap(), "the same bytes each time");
         }

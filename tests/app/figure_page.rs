@@ -31,6 +31,7 @@ fn settle(executor: &Executor, window: &mut Window) {
 /// A window with the page of a pane.
 fn page_of(pane: PaneKind) -> (Executor, Window) {
     let (executor, mut window) = driven([1280.0, 800.0], egui::Theme::Dark);
+    window.state_mut().view.show(pane);
     window.state_mut().view.focused = Some(pane);
     window.key_press_modifiers(Modifiers::COMMAND, Key::E);
     settle(&executor, &mut window);
@@ -57,7 +58,7 @@ fn the_page_shows_the_picture_that_is_saved() {
         ([image.width, image.height], &*image.rgba),
         ([picture.width(), picture.height()].map(|side| side as usize), &**picture.as_raw())
     );
-    assert!(window.query_by_label("Close Chromaticity").is_none(), "panes are out of sight");
+    assert!(window.query_by_label("Maximize Chromaticity (F)").is_none(), "panes are out of sight");
 }
 
 #[test]
@@ -73,7 +74,7 @@ fn escape_and_ctrl_e_go_back_to_where_one_was() {
         assert_eq!(open(&window), expected);
         assert_eq!(window.state().view.maximized, Some(PaneKind::SPECTRA));
     }
-    window.get_by_label("Close Spectra");
+    window.get_by_label("Restore Spectra (F)");
     window.state_mut().push(Command::FigurePage(PaneKind::SPECTRA));
     window.state_mut().push(Command::GoTo(PaneKind::CHROMATICITY));
     settle(&executor, &mut window);

@@ -60,7 +60,10 @@ fn settings_and_numbers_are_found() {
     find(&mut window, "theme light", 0);
     assert_eq!(window.ctx.options(|options| options.theme_preference), egui::ThemePreference::Light);
     find(&mut window, "daylight locus", 0);
-    assert_eq!(window.state().history.document().overlays, Overlays { daylight: true, ..Overlays::default() });
+    assert_eq!(
+        window.state().history.document().overlays,
+        Overlays { daylight: true, ..Document::colorimetry().overlays }
+    );
     for text in ["3200", "3300 K", "3400k"] {
         find(&mut window, text, 0);
         let kelvin: String = text.chars().filter(char::is_ascii_digit).collect();
@@ -85,7 +88,7 @@ fn each_slider_that_is_found_takes_the_keyboard() {
     ] {
         let mut window = window();
         find(&mut window, name, 0);
-        assert_eq!(window.state().view.saved.workspace, Workspace::Render, "{name}");
+        assert!(window.state().view.is_shown(PaneKind::RENDER), "{name}");
         window.run_steps(2);
         let focused = window.get_by(|node| node.is_focused() && !node.is_hidden());
         assert_eq!(focused.accesskit_node().role(), Role::Slider, "{name}");
@@ -141,6 +144,54 @@ fn a_long_list_filters_as_one_types() {
     assert!(window.state().history.document().chart.contains("leaf"), "{}", window.state().history.document().chart);
 }
 
+#[test]
+fn a_short_list_has_no_field_and_letters_go_to_its_lines() {
+    let mut window = window();
+    window.get_by_label_contains("Reference: ").click();
+    window.run_steps(3);
+    assert!(window.query_by_label("Filter Reference").is_none());
+    for letter in ["s", "s"] {
+        window.event(egui::Event::Text(letter.to_owned()));
+        window.run_steps(2);
+    }
+    window.key_press(Key::Enter);
+    window.run_steps(3);
+    assert_eq!(
+        window.state().history.document().reference,
+        "Stiles & Burch 1959 10°",
+        "the second one with the letter"
+    );
+}
+
+#[test]
+fn lights_in_common_use_come_first() {
+    let catalog = chromascope::catalog::Catalog::built_in();
+    let names: Vec<&str> = catalog.of_kind(SetKind::Illuminant).map(|entry| entry.name.as_str()).take(8).collect();
+    assert_eq!(names, ["D65", "D50", "A", "E", "D55", "FL2", "FL11", "LED-B3"]);
+}
+
+#[test]
+fn what_lies_below_the_palette_does_not_feel_the_pointer_and_a_press_there_closes_it() {
+    let mut window = window();
+    let board = window.get_by_role_and_label(Role::Canvas, "Swatches").rect();
+    let mut on_swatch = |step: u8| {
+        let at = board.lerp_inside(egui::Vec2::new(0.3 + 0.01 * f32::from(step), 0.1 + 0.02 * f32::from(step)));
+        window.hover_at(at);
+        window.run_steps(2);
+        window.state().view.hovered.is_some().then_some(at)
+    };
+    let swatches = (0..40).find_map(&mut on_swatch).expect("a swatch under the pointer");
+    window.state_mut().push(Command::FindAnything);
+    window.run_steps(3);
+    window.hover_at(swatches + egui::Vec2::splat(1.0));
+    window.run_steps(3);
+    assert_eq!(window.state().view.hovered, None);
+    window.drag_at(swatches);
+    window.drop_at(swatches);
+    window.run_steps(3);
+    assert!(window.state().view.palette.is_none() && window.state().view.selected.is_none());
+}
+
 /// Words of the lines in sight that a palette or list shows, from above.
 fn lines(window: &Window) -> Vec<String> {
     let shown =
@@ -159,8 +210,8 @@ fn exact_names_win_in_lists_and_in_the_palette() {
         ("light A", A),
         ("a, inc", A),
         ("fl2", "FL2, CIE fluorescent lamps"),
-        ("fl", "FL1, CIE fluorescent lamps"),
-        ("d6", "D60, daylight 6000 K"),
+        ("fl", "FL2, CIE fluorescent lamps"),
+        ("d6", "D65, daylight 6504 K"),
     ] {
         let mut window = window();
         window.get_by_label_contains("Light: ").click();
@@ -197,6 +248,7 @@ fn a_search_for_a_phone_says_that_there_is_none() {
         assert!(says(&window, "No phone is among the built-in cameras"), "{typed}");
         window.key_press(Key::Escape);
         window.run_steps(2);
+        window.state_mut().view.adding = true;
         window.state_mut().view.search = typed.to_owned();
         window.run_steps(2);
         assert!(says(&window, "Open a table of your own (Ctrl+O)"), "{typed}");
@@ -206,7 +258,8 @@ fn a_search_for_a_phone_says_that_there_is_none() {
 #[test]
 fn the_library_ranks_as_all_searches_do() {
     let mut window = window();
-    for (search, first) in [("A", "A"), ("d200", "Nikon D200"), ("camera d200", "Nikon D200"), ("nikkon d90", "")] {
+    window.state_mut().view.adding = true;
+    for (search, first) in [("d200", "Nikon D200"), ("camera d200", "Nikon D200"), ("nikkon d90", "")] {
         window.state_mut().view.search = search.to_owned();
         window.run_steps(3);
         let sets = window.query_all_by(|node| {
@@ -240,7 +293,7 @@ fn names_are_ranked_by_how_much_of_them_was_typed() {
 #[test]
 fn f6_frames_a_pane_and_arrows_walk_its_items() {
     let mut window = window();
-    window.state_mut().view.focused = Some(PaneKind::LIBRARY);
+    window.state_mut().view.focused = Some(PaneKind::COMPARED);
     window.state_mut().view.fixed_clock = true;
     window.run_steps(2);
     let before = window.render().expect("drawn");
@@ -272,13 +325,13 @@ fn f6_frames_a_pane_and_arrows_walk_its_items() {
     window.key_press(Key::Tab);
     window.run_steps(3);
     let focused = window.get_by(|node| node.is_focused() && !node.is_hidden());
-    assert_eq!(focused.accesskit_node().label().as_deref(), Some("Chromaticity"), "Tab enters the pane");
+    assert_eq!(focused.accesskit_node().label().as_deref(), Some("Diagram"), "Tab enters the pane");
 }
 
 #[test]
-fn the_library_is_walked_by_arrows() {
+fn the_compared_sensors_are_walked_by_arrows() {
     let mut window = window();
-    window.state_mut().push(Command::GoTo(PaneKind::LIBRARY));
+    window.state_mut().push(Command::GoTo(PaneKind::COMPARED));
     window.run_steps(3);
     window.key_press(Key::ArrowDown);
     window.run_steps(3);
@@ -332,9 +385,9 @@ fn controls_that_do_nothing_in_a_workspace_are_dim() {
     let mut window = window();
     window.run_steps(3);
     let lit = brightest(&mut window, 8);
-    window.state_mut().push(Command::Show(Workspace::Import));
+    window.state_mut().view.show(PaneKind::IMPORT);
     window.run_steps(3);
-    assert!(brightest(&mut window, 8) < lit, "Reference does nothing in Import");
+    assert!(brightest(&mut window, 8) < lit, "Reference does nothing in Data");
     window.state_mut().push(Command::Show(Workspace::Compare));
     window.run_steps(3);
     assert_eq!(brightest(&mut window, 8), lit);
@@ -343,7 +396,7 @@ fn controls_that_do_nothing_in_a_workspace_are_dim() {
 #[test]
 fn layouts_of_the_workspace_once_named_accuracy_open() {
     let old = "\"Accuracy\"";
-    assert_eq!(serde_json::from_str::<Workspace>(old).unwrap(), Workspace::Numerics);
+    assert_eq!(serde_json::from_str::<Workspace>(old).unwrap(), Workspace::Compare);
 }
 
 #[test]

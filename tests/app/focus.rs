@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use chromascope::app::ChromascopeApp;
-use chromascope::workspaces::Workspace;
+use chromascope::workspaces::PaneKind;
 use egui_kittest::Harness;
 use image::RgbaImage;
 
@@ -48,9 +48,9 @@ fn changed_along(rect: egui::Rect, a: &RgbaImage, b: &RgbaImage) -> f64 {
 }
 
 /// Traverses the window with Tab, and compares each control with and without the focus.
-fn tab_through(workspace: Workspace, theme: egui::Theme, size: [f32; 2], least: usize) {
+fn tab_through(pane: PaneKind, theme: egui::Theme, size: [f32; 2], least: usize) {
     let mut window = open(size, theme);
-    window.state_mut().view.saved.workspace = workspace;
+    window.state_mut().view.show(pane);
     window.state_mut().view.fixed_clock = true;
     // Charts stand for the rows of all groups: 58 cameras more would be as many pictures of the same widget.
     let folded = ["cameras", "observers", "illuminants", "materials"].map(str::to_owned);
@@ -82,26 +82,20 @@ fn tab_through(workspace: Workspace, theme: egui::Theme, size: [f32; 2], least: 
         }
     }
     assert!(seen.len() >= least, "only {} controls", seen.len());
-    assert!(
-        hidden.is_empty(),
-        "{workspace:?}: {} of {} show no focus:\n{}",
-        hidden.len(),
-        seen.len(),
-        hidden.join("\n")
-    );
+    assert!(hidden.is_empty(), "{pane:?}: {} of {} show no focus:\n{}", hidden.len(), seen.len(), hidden.join("\n"));
 }
 
 #[test]
 fn compare_shows_the_focus() {
-    tab_through(Workspace::Compare, egui::Theme::Dark, [900.0, 600.0], 40);
+    tab_through(PaneKind::CHROMATICITY, egui::Theme::Dark, [900.0, 600.0], 40);
 }
 
 #[test]
 fn spectra_shows_the_focus() {
-    tab_through(Workspace::Spectra, egui::Theme::Light, [900.0, 600.0], 30);
+    tab_through(PaneKind::SPECTRA, egui::Theme::Light, [900.0, 600.0], 30);
 }
 
 #[test]
 fn render_shows_the_focus() {
-    tab_through(Workspace::Render, egui::Theme::Light, [900.0, 600.0], 40);
+    tab_through(PaneKind::RENDER, egui::Theme::Light, [900.0, 600.0], 40);
 }

@@ -13,7 +13,7 @@ use chromascope::action::{Action, CompareAction, SceneAction};
 use chromascope::app::ChromascopeApp;
 use chromascope::document::{Document, Light, SetKind};
 use chromascope::scene::orbit::Orbit;
-use chromascope::workspaces::Workspace;
+use chromascope::workspaces::PaneKind;
 use egui_kittest::Harness;
 
 use crate::screenshots::open_with;
@@ -64,9 +64,9 @@ fn measure(name: &str, mut window: Window, mut change: impl FnMut(&mut Window, f
     );
 }
 
-fn opened(document: Document, workspace: Workspace) -> Window {
+fn opened(document: Document, pane: PaneKind) -> Window {
     let mut window = open_with(document, [1280.0, 800.0], egui::Theme::Light);
-    window.state_mut().view.saved.workspace = workspace;
+    window.state_mut().view.show(pane);
     window
 }
 
@@ -82,7 +82,7 @@ fn frames_while_the_head_turns() {
             source.kind != SetKind::Camera || cameras < sensors
         });
         let name = format!("orbit, 100 000 triangles, {sensors} pictures, \u{3c3} {sigma_um} µm, sky {sky}");
-        measure(&name, opened(document, Workspace::Render), |window, degrees| {
+        measure(&name, opened(document, PaneKind::RENDER), |window, degrees| {
             let orbit = Orbit { yaw_deg: degrees - 25.0, ..Orbit::default() };
             window.state_mut().view.saved.render.orbit = Some(orbit);
         });
@@ -96,12 +96,12 @@ fn frames_while_the_temperature_moves() {
     Action::Compare(CompareAction::Add(SetKind::Camera, "Canon EOS 5D".to_owned())).apply(&mut colorimetry);
     let mut black_body = Document::paper();
     Action::Scene(SceneAction::SetLight(Light::BlackBody)).apply(&mut black_body);
-    for (name, document, workspace) in [
-        ("Compare, the light a blackbody", black_body.clone(), Workspace::Compare),
-        ("Render, the light a blackbody", black_body, Workspace::Render),
-        ("Compare, Colorimetry's start and one more camera", colorimetry, Workspace::Compare),
+    for (name, document, pane) in [
+        ("Compare, the light a blackbody", black_body.clone(), PaneKind::CHROMATICITY),
+        ("Render, the light a blackbody", black_body, PaneKind::RENDER),
+        ("Compare, Colorimetry's start and one more camera", colorimetry, PaneKind::CHROMATICITY),
     ] {
-        measure(&format!("temperature, {name}"), opened(document, workspace), |window, index| {
+        measure(&format!("temperature, {name}"), opened(document, pane), |window, index| {
             window.state_mut().push(Action::Scene(SceneAction::SetTemperature(2500.0 + 30.0 * index)));
         });
     }

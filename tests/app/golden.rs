@@ -28,6 +28,10 @@ const COMMANDS: &[(&str, &[&str])] = &[
     ("help_matrix", &["matrix", "--help"]),
     ("help_figure", &["figure", "--help"]),
     ("help_report", &["report", "--help"]),
+    (
+        "report_session",
+        &["report", "--session", "DATA/work.chromascope", "--out", "OUT/report", "--picture-size", "16"],
+    ),
     ("help_render", &["render", "--help"]),
     ("help_identify", &["identify", "--help"]),
     ("help_inspect", &["inspect", "--help"]),
@@ -165,6 +169,7 @@ fn written(arguments: &[&str]) -> String {
         let name = text(path.to_str().unwrap().as_bytes());
         writeln!(all, "== {name}").unwrap();
         match path.extension().and_then(|ending| ending.to_str()) {
+            Some("html") => all += &words(&text(&fs::read(&path).unwrap())),
             Some("svg") => all += &texts(&fs::read_to_string(&path).unwrap()),
             Some("csv" | "json" | "txt") => all += &thinned(&without_times(&text(&fs::read(&path).unwrap()))),
             _ => {}
@@ -210,8 +215,32 @@ fn texts(svg: &str) -> String {
     found.join("\n") + "\n"
 }
 
-/// Small tables, by the names of their files.
-fn tables() -> [(&'static str, String); 4] {
+/// The words of a page without its figures, line by line.
+fn words(page: &str) -> String {
+    let body = page.split_once("<body>").unwrap().1;
+    let whole = body.split("<svg").map(|part| part.split_once("</svg>").map_or(part, |(_, after)| after));
+    let plain = |line: &str| {
+        line.split('<')
+            .map(|piece| piece.split_once('>').map_or(piece, |(_, text)| text).trim())
+            .collect::<Vec<_>>()
+            .join(" ")
+    };
+    whole
+        .collect::<String>()
+        .lines()
+        .map(|line| plain(line).trim().to_owned() + "\n")
+        .filter(|line| line != "\n")
+        .collect()
+}
+
+/// A session that names a camera and a mesh that nobody has.
+const SESSION: &str = r#"{"format": "chromascope", "version": 4, "light": {"set": "A"}, "compared": [
+    {"name": "CIE 1931 2°", "kind": "observer", "slot": 0}, {"name": "Nikon D3300", "kind": "camera", "slot": 1},
+    {"name": "Kodak DCS200", "kind": "camera", "slot": 2}, {"name": "Nobody's", "kind": "camera", "slot": 3},
+    {"name": "Canon EOS 5D", "kind": "camera", "slot": 4, "visible": false}], "render": {"mesh": {"file": "gone.obj"}}}"#;
+
+/// Small tables and a session, by the names of their files.
+fn tables() -> [(&'static str, String); 5] {
     let grid = || (38..=73).map(|ten| 10.0 * f64::from(ten));
     let mut leaf = "wavelength_nm,leaf\n".to_owned();
     let mut radiance = "# Quantity: radiance\nwavelength_nm,lamp (W/sr/m2/nm),wall (W/sr/m2/nm)\n".to_owned();
@@ -227,6 +256,7 @@ fn tables() -> [(&'static str, String); 4] {
         ("radiance.csv", radiance),
         ("semicolons.csv", semicolons),
         ("recorded.csv", RECORDED.to_owned()),
+        ("work.chromascope", SESSION.to_owned()),
     ]
 }
 

@@ -12,7 +12,7 @@ use chromascope::document::{Document, Light, SetKind};
 use chromascope::files::Files;
 use chromascope::view::import::ImportItem;
 use chromascope::view::{SavedView, Weight};
-use chromascope::workspaces::Workspace;
+use chromascope::workspaces::{PaneKind, Workspace};
 use egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use spectral_file::{Delimiter, ReadOptions, Role as Kinds};
@@ -28,7 +28,7 @@ const BROKEN: &str = "nm;leaf (%)\n400;5,0\n500;10,0\n600;oops\n700;50,0\n";
 
 fn window() -> Window {
     let mut window = open([1280.0, 1000.0], egui::Theme::Dark);
-    window.state_mut().view.saved.workspace = Workspace::Import;
+    window.state_mut().view.show(PaneKind::IMPORT);
     window.run();
     window
 }

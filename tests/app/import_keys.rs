@@ -44,7 +44,7 @@ fn files_switches_and_curves_are_reached_and_changed_by_keys_alone() {
     }
     window.key_press_modifiers(egui::Modifiers::COMMAND, Key::Num5);
     settle(&mut window);
-    assert_eq!(window.state().view.saved.workspace, Workspace::Import);
+    assert_eq!(window.state().view.saved.workspace, Workspace::Data);
 
     go_to(&mut window, Stop::Files);
     assert_eq!(window.state().view.focused, Some(PaneKind::IMPORT));

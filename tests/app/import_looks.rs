@@ -154,7 +154,7 @@ fn the_foot_of_a_file_that_failed_stays_above_the_status() {
         let mut window = open(size, egui::Theme::Dark);
         window.state_mut().push(chromascope::command::Command::OpenPath(path.clone()));
         crate::import_switches::until(&mut window, "a failure", |app| !app.view.status.text.is_empty());
-        window.state_mut().view.saved.workspace = chromascope::workspaces::Workspace::Import;
+        window.state_mut().view.show(chromascope::workspaces::PaneKind::IMPORT);
         window.run_steps(4);
         // The status bar is 24 points high.
         let foot = window.get_by_role_and_label(Role::CheckBox, "Reload when the file changes").rect();

@@ -37,7 +37,7 @@ pub(crate) fn drop_file(window: &mut Window, name: &str, text: &str) {
     window.input_mut().dropped_files.push(Arc::new(file));
     window.run_steps(1);
     until(window, "a file", |app| app.opened.files().len() > known && app.opened.progress().is_none());
-    window.state_mut().view.saved.workspace = Workspace::Import;
+    window.state_mut().view.show(PaneKind::IMPORT);
     settle(window);
 }
 
@@ -370,9 +370,9 @@ fn the_foot_leads_to_what_was_guessed() {
     window.state_mut().view.say("Values reach 98: read as percent.");
     window.state_mut().view.status.change = Some((item, None));
     window.run_steps(2);
-    assert!(says(&window, "Import: 1 file to check"));
+    assert!(says(&window, "Data: 1 file to check"));
     window.get_by_role_and_label(Role::Button, "Change").click();
     settle(&mut window);
-    assert_eq!(window.state().view.saved.workspace, Workspace::Import);
+    assert_eq!(window.state().view.saved.workspace, Workspace::Data);
     assert!(!says(&window, "to check"));
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use chromascope::app::ChromascopeApp;
-use chromascope::workspaces::{PaneKind, Workspace};
+use chromascope::workspaces::PaneKind;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 
@@ -19,7 +19,7 @@ const LEAF: &str = "nm;leaf (%)\n400;5,0\n500;10,0\n600;20,0\n700;50,0\n";
 /// The window with files that were dropped on it, in Import.
 fn window(size: [f32; 2], theme: egui::Theme, files: &[(&str, Vec<u8>)]) -> Window {
     let mut window = open(size, theme);
-    window.state_mut().view.saved.workspace = Workspace::Import;
+    window.state_mut().view.show(PaneKind::IMPORT);
     for (index, (name, bytes)) in files.iter().enumerate() {
         let file = Dropped((*name).into(), bytes.clone());
         window.input_mut().dropped_files.push(Arc::new(file));
@@ -43,7 +43,7 @@ fn computed(window: &Window) -> Vec<(&'static str, u64)> {
 #[test]
 fn without_a_file_there_are_ways_to_open_one() {
     let mut window = open([1280.0, 800.0], egui::Theme::Dark);
-    window.state_mut().view.saved.workspace = Workspace::Import;
+    window.state_mut().view.show(PaneKind::IMPORT);
     window.run_steps(2);
     for words in ["Open…", "Open folder…", "paste data"] {
         assert!(says(&window, words), "{words}");
@@ -59,7 +59,8 @@ fn a_file_that_failed_shows_the_line_where() {
     // What failed is selected at once.
     assert!(says(&window, "302: 700,oops") && !says(&window, "2: 400;5,0"));
     window.state_mut().view.focused = Some(PaneKind::IMPORT);
-    window.get_by_label_contains("leaf: ").click();
+    // In the list of files; the set is in the table above, too.
+    window.get_all_by_label_contains("leaf: ").last().expect("listed").click();
     settle(&mut window);
     assert!(says(&window, "2: 400;5,0"));
     window.state_mut().view.import.line = Some(5);

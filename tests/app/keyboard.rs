@@ -5,7 +5,7 @@ use chromascope::command::{Command, key_bindings};
 use chromascope::document::render::MeshChoice;
 use chromascope::document::{Document, Light};
 use chromascope::view::{View, Weight};
-use chromascope::workspaces::{PaneKind, Workspace};
+use chromascope::workspaces::{PaneKind, Side};
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers};
 use egui_kittest::Harness;
@@ -34,9 +34,9 @@ pub(crate) fn press_like_keyboard(window: &mut Window, words: &str) {
     window.run_steps(2);
 }
 
-fn window(workspace: Workspace, size: [f32; 2]) -> Window {
+fn window(pane: PaneKind, size: [f32; 2]) -> Window {
     let mut window = open_with(Document::colorimetry(), size, egui::Theme::Dark);
-    window.state_mut().push(Command::Show(workspace));
+    window.state_mut().view.show(pane);
     window.run_steps(3);
     window
 }
@@ -44,9 +44,9 @@ fn window(workspace: Workspace, size: [f32; 2]) -> Window {
 /// What a key can change, in words.
 fn state(window: &Window) -> String {
     let document = window.state().history.document();
-    let View { saved, maximized, inspector_over, focus_temperature, status, .. } = &window.state().view;
+    let View { saved, maximized, column_over, focus_temperature, status, .. } = &window.state().view;
     let bars = saved.difference_bars;
-    format!("{document:?} {:?} {maximized:?} {inspector_over} {focus_temperature} {bars} {}", saved.layout, status.text)
+    format!("{document:?} {:?} {maximized:?} {column_over} {focus_temperature} {bars} {}", saved.layout, status.text)
 }
 
 /// All keys of one letter or digit.
@@ -62,7 +62,7 @@ fn single_letters() -> impl Iterator<Item = (char, Command)> {
 fn each_letter_does_what_it_says_and_types_nothing() {
     assert_eq!(single_letters().filter(|(key, _)| key.is_alphabetic()).count(), 6);
     for (key, command) in single_letters() {
-        let mut window = window(Workspace::Compare, SIZE);
+        let mut window = window(PaneKind::CHROMATICITY, SIZE);
         let before = state(&window);
         press_like_keyboard(&mut window, &key.to_string());
         let sensors = window.state().history.document().compared.len();
@@ -79,7 +79,7 @@ fn each_letter_does_what_it_says_and_types_nothing() {
 
 #[test]
 fn what_comes_with_the_key_t_in_a_slow_frame_goes_into_the_field() {
-    let mut window = window(Workspace::Compare, SIZE);
+    let mut window = window(PaneKind::CHROMATICITY, SIZE);
     let key = |key| Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers: Modifiers::NONE };
     let text = |text: &str| Event::Text(text.to_owned());
     window.input_mut().events.extend([key(Key::T), text("t"), key(Key::Num4), text("4"), key(Key::Num2), text("2")]);
@@ -93,7 +93,7 @@ fn what_comes_with_the_key_t_in_a_slow_frame_goes_into_the_field() {
 
 #[test]
 fn a_number_that_was_refused_goes_with_escape_from_anywhere() {
-    let mut window = window(Workspace::Compare, SIZE);
+    let mut window = window(PaneKind::CHROMATICITY, SIZE);
     press_like_keyboard(&mut window, "tabc");
     window.key_press(Key::Enter);
     window.run_steps(2);
@@ -111,35 +111,31 @@ fn a_number_that_was_refused_goes_with_escape_from_anywhere() {
 
 #[test]
 fn a_temperature_without_effect_says_why() {
-    for (workspace, why) in [
-        (Workspace::Render, "the light is Direct sun (ASTM G173). Choose Blackbody or Daylight under Light."),
-        (Workspace::Import, "no effect on the panes of Import."),
-    ] {
-        let mut window = window(workspace, SIZE);
-        press_like_keyboard(&mut window, "t");
-        assert!(says(&window, why), "{}", window.state().view.status.text);
-        assert!(!window.ctx.text_edit_focused(), "letters go on to be keys");
-        window.get_by_role_and_label(Role::Slider, "Temperature in kelvins").click();
-        window.run_steps(2);
-        window.state_mut().view.say("");
-        press_like_keyboard(&mut window, "4321");
-        window.key_press(Key::Enter);
-        window.run_steps(3);
-        assert_eq!(window.state().history.document().temperature_k, 4321.0);
-        assert!(says(&window, why));
-    }
+    let why = "no effect on the panes of Data.";
+    let mut window = window(PaneKind::IMPORT, SIZE);
+    press_like_keyboard(&mut window, "t");
+    assert!(says(&window, why), "{}", window.state().view.status.text);
+    assert!(!window.ctx.text_edit_focused(), "letters go on to be keys");
+    window.get_by_role_and_label(Role::Slider, "Temperature in kelvins").click();
+    window.run_steps(2);
+    window.state_mut().view.say("");
+    press_like_keyboard(&mut window, "4321");
+    window.key_press(Key::Enter);
+    window.run_steps(3);
+    assert_eq!(window.state().history.document().temperature_k, 4321.0);
+    assert!(says(&window, why));
 }
 
 #[test]
 fn letters_in_an_open_list_or_menu_are_its_own() {
-    for (workspace, opens) in [
-        (Workspace::Compare, "File"),
-        (Workspace::Compare, "Show"),
-        (Workspace::Compare, "Export Chromaticity"),
-        (Workspace::Compare, "Light: D65"),
-        (Workspace::Render, "Mesh: Head"),
+    for (pane, opens) in [
+        (PaneKind::CHROMATICITY, "File"),
+        (PaneKind::CHROMATICITY, "View"),
+        (PaneKind::CHROMATICITY, "Export Chromaticity"),
+        (PaneKind::CHROMATICITY, "Light: D65"),
+        (PaneKind::RENDER, "Mesh: Head"),
     ] {
-        let mut window = window(workspace, SIZE);
+        let mut window = window(pane, SIZE);
         window.get_by_label(opens).click();
         window.run_steps(3);
         assert!(egui::Popup::is_any_open(&window.ctx), "{opens}");
@@ -153,13 +149,13 @@ fn letters_in_an_open_list_or_menu_are_its_own() {
         }
         assert_eq!(state(&window), before, "{opens}");
         let view = &window.state().view;
-        assert!(view.palette.is_none() && view.page.is_none() && view.saved.workspace == workspace, "{opens}");
+        assert!(view.palette.is_none() && view.page.is_none() && view.is_shown(pane), "{opens}");
     }
 }
 
 #[test]
 fn short_lists_are_filtered_as_one_types() {
-    let mut window = window(Workspace::Render, SIZE);
+    let mut window = window(PaneKind::RENDER, SIZE);
     let choose = |window: &mut Window, list: &str, typed: &str| {
         window.get_by_label_contains(list).click();
         window.run_steps(3);
@@ -178,55 +174,76 @@ fn short_lists_are_filtered_as_one_types() {
 
 #[test]
 fn panes_of_controls_do_not_fill_the_window() {
-    let mut window = window(Workspace::Render, SIZE);
-    assert!(window.query_by_label_contains("Maximize Render settings").is_none());
+    let mut window = window(PaneKind::RENDER, SIZE);
+    assert!(window.query_by_label_contains("Maximize Settings").is_none());
     assert!(window.query_by_label_contains("Maximize Render (F)").is_some());
-    window.state_mut().push(Command::GoTo(PaneKind::RENDER_SETTINGS));
+    window.state_mut().push(Command::GoTo(PaneKind::SETTINGS));
     window.run_steps(3);
     press_like_keyboard(&mut window, "f");
     assert_eq!(window.state().view.maximized, None);
-    assert!(says(&window, "Render settings keeps its size"));
+    assert!(says(&window, "Settings keeps its size"));
 }
 
 #[test]
 fn ctrl_e_prints_a_pane_that_has_a_figure() {
-    for (workspace, size, printed) in [
-        (Workspace::Compare, SIZE, PaneKind::CHROMATICITY),
-        (Workspace::Render, [900.0, 600.0], PaneKind::RENDER),
-        (Workspace::Spectra, SIZE, PaneKind::SPECTRA),
+    for (pane, size, printed) in [
+        (PaneKind::CHROMATICITY, SIZE, PaneKind::CHROMATICITY),
+        (PaneKind::RENDER, [900.0, 600.0], PaneKind::RENDER),
+        (PaneKind::SPECTRA, SIZE, PaneKind::SPECTRA),
     ] {
-        let mut window = window(Workspace::Compare, size);
-        window.get_by_role_and_label(Role::TextInput, "Search the library").click();
+        let mut window = window(PaneKind::CHROMATICITY, size);
+        window.get_by_label("Compared").click();
         window.run_steps(2);
-        assert_eq!(window.state().view.focused, Some(PaneKind::LIBRARY));
-        window.state_mut().push(Command::Show(workspace));
+        assert_eq!(window.state().view.focused, Some(PaneKind::COMPARED));
+        window.state_mut().view.show(pane);
+        window.state_mut().view.focused = Some(pane);
         window.run_steps(3);
         window.state().render_service.wait();
         window.run_steps(3);
         window.key_press_modifiers(Modifiers::COMMAND, Key::E);
         window.run_steps(3);
         let view = &window.state().view;
-        assert_eq!(view.page, Some(printed), "{workspace:?}: {}", view.status.text);
+        assert_eq!(view.page, Some(printed), "{pane:?}: {}", view.status.text);
         assert_ne!(view.status.weight, Weight::Error);
     }
 }
 
 #[test]
 fn the_keyboard_leaves_a_pane_that_leaves_the_screen() {
-    let mut window = window(Workspace::Compare, SIZE);
+    let mut window = window(PaneKind::CHROMATICITY, SIZE);
     window.state_mut().push(Command::GoTo(PaneKind::SWATCHES));
     window.run_steps(3);
     assert_eq!(window.state().view.focused, Some(PaneKind::SWATCHES));
-    window.state_mut().push(Command::TogglePane(PaneKind::SWATCHES));
+    window.state_mut().push(Command::Toggle(Side::Lower));
     window.run_steps(3);
     assert_eq!(window.state().view.focused, None);
     press_like_keyboard(&mut window, "f");
     assert_eq!(window.state().view.maximized, Some(PaneKind::CHROMATICITY));
 }
 
+/// Worst patch of the three cameras of the first screen under illuminant A.
+#[test]
+fn the_worst_patch_under_another_light_takes_fifteen_keys_at_most() {
+    let mut window = window(PaneKind::CHROMATICITY, SIZE);
+    let mut keys = 0;
+    for typed in ["a", "worst"] {
+        window.key_press_modifiers(Modifiers::COMMAND, Key::K);
+        window.run_steps(3);
+        press_like_keyboard(&mut window, typed);
+        window.key_press(Key::Enter);
+        window.run_steps(4);
+        keys += 2 + typed.len();
+    }
+    assert!(keys <= 15, "{keys}");
+    assert_eq!(window.state().history.document().light, Light::Set("A".to_owned()));
+    let selected = window.state().view.selected.clone().expect("the worst patch");
+    assert_eq!(selected.source().map(|source| source.name.as_str()), Some("Kodak DCS200"));
+    assert!(says(&window, selected.patch().expect("a patch")), "its name and difference are read in the Inspector");
+}
+
 #[test]
 fn a_number_in_the_palette_sets_the_temperature() {
-    let mut window = window(Workspace::Compare, SIZE);
+    let mut window = window(PaneKind::CHROMATICITY, SIZE);
     window.key_press_modifiers(Modifiers::COMMAND, Key::K);
     window.run_steps(3);
     press_like_keyboard(&mut window, "3200");
@@ -237,7 +254,7 @@ fn a_number_in_the_palette_sets_the_temperature() {
 
 #[test]
 fn a_narrow_window_still_offers_the_difference() {
-    let mut window = window(Workspace::Compare, [900.0, 600.0]);
+    let mut window = window(PaneKind::CHROMATICITY, [900.0, 600.0]);
     let button = window.get_by_label_contains("Difference: ");
     assert!(button.rect().right() <= 900.0, "{}", button.rect());
     button.click();

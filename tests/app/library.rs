@@ -1,10 +1,11 @@
-//! The library: ticking, searching, hiding, the reference.
+//! Cameras and observers that are added, hidden and renamed; the library, of which all other sets are used.
 
 use chromascope::app::ChromascopeApp;
 use chromascope::catalog::import;
 use chromascope::command::Command;
 use chromascope::document::{Light, SetKind};
 use chromascope::plot_item::{PlotItem, SensorId};
+use chromascope::workspaces::PaneKind;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -14,7 +15,14 @@ use crate::screenshots::open;
 type Window = Harness<'static, ChromascopeApp>;
 
 fn window() -> Window {
-    open([1280.0, 800.0], egui::Theme::Dark)
+    adding([1280.0, 800.0])
+}
+
+fn adding(size: [f32; 2]) -> Window {
+    let mut window = open(size, egui::Theme::Dark);
+    window.state_mut().view.adding = true;
+    window.run();
+    window
 }
 
 pub(crate) fn press(window: &mut Window, role: Role, label: &str) {
@@ -26,7 +34,7 @@ pub(crate) fn press(window: &mut Window, role: Role, label: &str) {
 fn search(window: &mut Window, words: &str) {
     window.state_mut().push(Command::FocusSearch);
     window.run();
-    window.get_by_role_and_label(Role::TextInput, "Search the library").type_text(words);
+    window.get_by_role_and_label(Role::TextInput, "Search the cameras").type_text(words);
     // The set that comes under the pointer is previewed, which takes frames of its own.
     window.run_steps(8);
 }
@@ -67,6 +75,9 @@ fn escape_clears_the_search_and_keeps_the_selection() {
     window.run();
     assert_eq!(window.state().view.search, "");
     assert_eq!(window.state().view.selected, Some(thing));
+    window.key_press(egui::Key::Escape);
+    window.run();
+    assert!(!window.state().view.adding);
     window.key_press(egui::Key::Escape);
     window.run();
     assert_eq!(window.state().view.selected, None);
@@ -117,13 +128,21 @@ fn a_label_is_renamed_in_its_place() {
 }
 
 #[test]
-fn lights_charts_and_materials_are_chosen() {
+fn lights_charts_and_filters_are_used_from_the_table_of_data() {
     let mut window = window();
-    for (search, name) in [("D65", "D65"), ("190", "Training reflectances (190)")] {
-        window.state_mut().view.search = search.to_owned();
-        window.run();
-        press(&mut window, Role::RadioButton, name);
+    window.state_mut().view.show(PaneKind::LIBRARY);
+    for (kind, name, used) in [
+        (SetKind::Illuminant, "D65", "Use as light"),
+        (SetKind::Chart, "Training reflectances (190)", "Use as chart"),
+        (SetKind::Filter, "ND 0.6", "Use as filter"),
+    ] {
+        window.state_mut().view.selected = Some(PlotItem::of_set(kind, name));
+        window.run_steps(3);
+        press(&mut window, Role::Button, used);
     }
+    assert_eq!(window.state().history.document().filters, ["ND 0.6"]);
+    press(&mut window, Role::Button, "Remove filter");
+    assert!(window.state().history.document().filters.is_empty());
     let document = window.state().history.document();
     assert_eq!(document.light, Light::Set("D65".to_owned()));
     assert_eq!(document.chart, "Training reflectances (190)");
@@ -198,7 +217,10 @@ fn click_eight_times(window: &mut Window, name: &str) {
 /// The camera whose row is at a place.
 fn camera_at(window: &Window, at: egui::Pos2) -> String {
     let row = window.get_by(|node| {
-        node.role() == Role::CheckBox && rect_of(node).y_range().contains(at.y) && rect_of(node).bottom() > at.y
+        node.role() == Role::CheckBox
+            && rect_of(node).left() < 200.0
+            && rect_of(node).y_range().contains(at.y)
+            && rect_of(node).bottom() > at.y
     });
     row.accesskit_node().label().expect("a name")
 }
@@ -212,7 +234,7 @@ fn rect_of(node: &egui_kittest::kittest::AccessKitNode<'_>) -> egui::Rect {
 #[test]
 fn the_list_stands_still_while_cameras_are_ticked() {
     for size in [[1280.0, 800.0], [900.0, 600.0]] {
-        let mut window = open(size, egui::Theme::Dark);
+        let mut window = adding(size);
         let at = window.get_by_role_and_label(Role::CheckBox, "Canon EOS 5D").rect().center();
         for scroll in [0.0, -150.0, -30.0, 77.0, -400.0] {
             window.hover_at(at);
@@ -241,12 +263,12 @@ fn the_list_stands_still_while_cameras_are_ticked() {
 
 #[test]
 fn a_ticked_camera_is_in_sight_above() {
-    let mut window = open([900.0, 600.0], egui::Theme::Dark);
+    let mut window = adding([900.0, 600.0]);
     for name in ["Canon EOS M", "Nikon D850", "Nikon Z f"] {
         search(&mut window, name);
         press(&mut window, Role::CheckBox, name);
         let row = window.get_by_role_and_label(Role::Button, &format!("Hide {name}")).rect();
-        let field = window.get_by_role_and_label(Role::TextInput, "Search the library").rect();
+        let field = window.get_by_role_and_label(Role::TextInput, "Search the cameras").rect();
         assert!(row.bottom() < field.top() && row.height() > 20.0, "{name}: {row}, {field}");
     }
 }

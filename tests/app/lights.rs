@@ -3,7 +3,6 @@
 use chromascope::action::history::History;
 use chromascope::action::{Action, SceneAction};
 use chromascope::catalog::Catalog;
-use chromascope::command::Command;
 use chromascope::document::imported::Role;
 use chromascope::document::{Document, Light, Overlays, SetKind, session};
 use chromascope::figures;
@@ -12,10 +11,9 @@ use chromascope::results::Results;
 use chromascope::scene::Scene;
 use chromascope::workspaces::PaneKind;
 use chromascope_figure::FigureRoom;
-use egui::accesskit::Role as Kind;
 use egui_kittest::kittest::Queryable as _;
 
-use crate::screenshots::{open, open_with};
+use crate::screenshots::open_with;
 
 fn with<R>(document: &Document, ask: impl FnOnce(&Scene<'_>) -> R) -> R {
     let (catalog, results) = (Catalog::built_in(), Results::default());
@@ -104,21 +102,6 @@ fn an_imported_transmittance_is_a_filter() {
 }
 
 #[test]
-fn filters_are_ticked_in_the_library_and_removed_beside_the_light() {
-    let mut window = open([1280.0, 800.0], egui::Theme::Dark);
-    window.state_mut().push(Command::FocusSearch);
-    window.run();
-    window.get_by_role_and_label(Kind::TextInput, "Search the library").type_text("nd 0.6");
-    window.run();
-    window.get_by_role_and_label(Kind::CheckBox, "ND 0.6").click();
-    window.run();
-    assert_eq!(window.state().history.document().filters, ["ND 0.6"]);
-    window.get_by_role_and_label(Kind::CheckBox, "ND 0.6").click();
-    window.run();
-    assert!(window.state().history.document().filters.is_empty());
-}
-
-#[test]
 fn whites_and_isotherms_are_drawn_where_they_belong() {
     let mut document = Document::colorimetry();
     let marks = |document: &Document| {
@@ -141,8 +124,7 @@ fn whites_and_isotherms_are_drawn_where_they_belong() {
 fn the_pane_says_all_and_why_not() {
     let shown = |document: Document| {
         let mut window = open_with(document, [1280.0, 800.0], egui::Theme::Dark);
-        let workspace = window.state().view.saved.workspace;
-        window.state_mut().view.saved.layout.replace(workspace, PaneKind::SPECTRA, PaneKind::new("Light"));
+        window.state_mut().view.show(PaneKind::LIGHT);
         window.run();
         window.state().later.wait();
         window.run();

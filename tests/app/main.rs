@@ -13,6 +13,7 @@ mod cli_render_image;
 mod correction;
 mod cpu_renderer;
 mod diagram;
+mod differences;
 mod doubt;
 mod exports;
 mod figure;

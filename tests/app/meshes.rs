@@ -14,7 +14,7 @@ use chromascope::document::{Document, session};
 use chromascope::files::Files;
 use chromascope::jobs::Executor;
 use chromascope::view::{SavedView, Weight};
-use chromascope::workspaces::Workspace;
+use chromascope::workspaces::{PaneKind, Workspace};
 use egui_kittest::Harness;
 use tempfile::TempDir;
 
@@ -103,7 +103,7 @@ fn a_dropped_mesh_is_looked_at_in_one_step() {
     assert_eq!(weight, Weight::Note);
     assert_eq!(mesh_shown(&harness), MeshChoice::File(path.clone()));
     assert_eq!(harness.state().view.saved.recent, [path]);
-    assert_eq!(harness.state().view.saved.workspace, Workspace::Render);
+    assert!(harness.state().view.is_shown(PaneKind::RENDER));
     assert_eq!(harness.state().history.undo_name(), Some("Open square.obj"));
     harness.state_mut().push(Command::Undo);
     harness.run_steps(2);
@@ -209,7 +209,8 @@ fn a_session_with_a_missing_mesh_opens() {
     let json = session::to_json(&document).unwrap();
     assert_eq!(session::from_json(&json).unwrap(), document);
     let mut harness = Harness::builder().with_size([1280.0, 800.0]).renderer(Cpu::default()).build_eframe(|cc| {
-        let saved = SavedView { workspace: Workspace::Render, ..SavedView::default() };
+        let mut saved = SavedView::default();
+        saved.layout.put(Workspace::Compare, 0, PaneKind::RENDER);
         ChromascopeApp::new(&cc.egui_ctx, History::new(document), saved, Files::new(None))
     });
     harness.run_steps(3);

@@ -16,7 +16,7 @@ use chromascope::files::Files;
 use chromascope::jobs::Executor;
 use chromascope::view::RankedCameras;
 use chromascope::view::{DiagramFit, Offer, SavedView, Weight};
-use chromascope::workspaces::Workspace;
+use chromascope::workspaces::{PaneKind, Workspace};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
@@ -309,7 +309,7 @@ fn a_failed_file_is_selected_at_once_with_its_reason() {
     fs::write(&good, LEAF).unwrap();
     fs::write(&bad, LEAF.replace("0.2", "oops")).unwrap();
     let mut window = window();
-    window.state_mut().view.saved.workspace = Workspace::Import;
+    window.state_mut().view.show(PaneKind::IMPORT);
     open_path(&mut window, &good);
     assert!(says(&window, "good.csv: 1 curve"));
     open_path(&mut window, &bad);
@@ -359,9 +359,9 @@ fn a_light_chosen_in_compare_leaves_renders_own() {
     window.state_mut().push(light("A"));
     window.run_steps(2);
     assert!(document(&window).render.sunlight, "the pictures keep their sun");
-    window.state_mut().push(Command::Show(Workspace::Render));
+    window.state_mut().view.show(PaneKind::RENDER);
     window.run_steps(3);
-    assert!(says(&window, "Render's own light") && says(&window, "Render's own white"));
+    assert!(says(&window, "pictures: sun"));
     window.state_mut().push(light("D50"));
     window.run_steps(2);
     assert_eq!((document(&window).render.sunlight, document(&window).light), (false, Light::Set("D50".to_owned())));
@@ -384,7 +384,9 @@ fn data_fits_the_data_again() {
     seconds(&mut window);
     let held = fit(&window);
     assert_eq!(window.state().view.saved.diagram_fit, DiagramFit::Data);
-    window.get_by_role_and_label(Role::Button, "Data").click();
+    let buttons = window.query_all_by_role_and_label(Role::Button, "Data").collect::<Vec<_>>();
+    // The first is the workspace.
+    buttons[1].click();
     seconds(&mut window);
     assert!(fit(&window) != held, "pressed again it fits again");
 }

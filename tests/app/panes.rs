@@ -15,7 +15,7 @@ use chromascope::profiler::{Measured, Profiler};
 use chromascope::render_service::RenderService;
 use chromascope::scene::Scene;
 use chromascope::theme::{self, Theme};
-use chromascope::view::View;
+use chromascope::view::{SavedView, View};
 use chromascope::workspaces::{Layout, PaneKind, Workspace};
 use egui::Ui;
 use egui_kittest::Harness;
@@ -40,21 +40,24 @@ fn each_file_of_a_pane_is_registered_under_its_title() {
     let layout = Layout::default();
     let mut placed = Workspace::ALL.iter().flat_map(|&workspace| *layout.places(workspace)).flatten();
     assert!(placed.all(|kind| kinds.contains(&kind)), "a layout starts with panes that exist");
+    let mut mended = Layout::default();
+    mended.mend(|kind| kinds.contains(&kind));
+    assert_eq!(mended, layout, "each stands in a slot that takes it");
 }
 
 /// As eframe writes it: the ids are those of every version so far.
 const SAVED: &str = "(library_width: Some(240.0), compare: (Some(Chromaticity), Some(Understood), None, Some(Spectra)), \
+                     metrics: (Some(Metrics), Some(Correction), Some(HeadToHead), Some(Gamut)), \
                      accuracy: (Some(Accuracy), Some(SkippedWork), Some(Tolerance), Some(RenderSetup)))";
 
 #[test]
 fn layouts_of_earlier_versions_open() {
-    let layout: Layout = ron::from_str(SAVED).unwrap();
-    assert_eq!(
-        layout.compare,
-        [Some(PaneKind::CHROMATICITY), Some(PaneKind::INTERPRETATION), None, Some(PaneKind::SPECTRA)]
-    );
-    let accuracy = [PaneKind::METHODS, PaneKind::new("SkippedWork"), PaneKind::TOLERANCE, PaneKind::RENDER_SETTINGS];
-    assert_eq!(layout.numerics, accuracy.map(Some));
+    let mut layout: Layout = ron::from_str(SAVED).unwrap();
+    assert_eq!(layout.left_width, Some(240.0));
+    layout.mend(|kind| panes::by_kind(kind).is_some());
+    // Interpretation is no view of Compare, and what is beside the views is fixed; the page of a camera stays chosen.
+    assert_eq!(layout.compare, Layout::default().compare);
+    assert_eq!(layout.rank[2], Some(PaneKind::HEAD_TO_HEAD));
     let again = ron::to_string(&layout).unwrap();
     assert!(again.contains("Some(Understood)"), "{again}");
     assert_eq!(ron::from_str::<Layout>(&again).unwrap(), layout);
@@ -62,13 +65,21 @@ fn layouts_of_earlier_versions_open() {
 }
 
 #[test]
-fn a_pane_that_is_not_there_leaves_its_place_empty() {
-    let mut layout: Layout = ron::from_str(&SAVED.replace("Spectra", "Gamut")).unwrap();
-    assert_eq!(layout.compare[3], Some(PaneKind::new("Gamut")));
-    layout.retain(|kind| panes::by_kind(kind).is_some());
-    assert_eq!(layout.compare[3], None);
-    assert_eq!(layout.library_width, Some(240.0));
-    assert_eq!(layout.compare[0], Some(PaneKind::CHROMATICITY));
+fn workspaces_of_earlier_versions_open_in_the_place_that_took_them_in() {
+    for (earlier, workspace, upper) in [
+        ("Compare", Workspace::Compare, PaneKind::CHROMATICITY),
+        ("Spectra", Workspace::Compare, PaneKind::SPECTRA),
+        ("Render", Workspace::Compare, PaneKind::RENDER),
+        ("Metrics", Workspace::Rank, PaneKind::CHROMATICITY),
+        ("Import", Workspace::Data, PaneKind::CHROMATICITY),
+        ("Accuracy", Workspace::Compare, PaneKind::CHROMATICITY),
+    ] {
+        let layout = format!("(workspace: {earlier}, layout: {SAVED})");
+        let mut saved: SavedView = ron::from_str(&layout).unwrap();
+        saved.mend(|kind| panes::by_kind(kind).is_some());
+        saved.open_earlier(&ron::from_str(&layout).unwrap());
+        assert_eq!((saved.workspace, saved.layout.compare[0]), (workspace, Some(upper)), "{earlier}");
+    }
 }
 
 /// All of a pane with a slow answer and a state of its own.
@@ -86,6 +97,8 @@ mod doubling {
         figure: None,
         under_conditions: false,
         table: false,
+        tab: "Doubling",
+        settings: None,
     };
 
     #[derive(Clone, PartialEq, Eq, Hash)]

@@ -147,7 +147,7 @@ fn an_ending_that_cannot_be_written_is_refused_and_stays() {
         let path = folder.path().join(name);
         type_path(&mut window, path.to_str().unwrap());
         enter(&mut window);
-        assert!(says(&window, "this can be saved as .svg, .pdf, .png, .tif, .csv or .json"), "{name}");
+        assert!(says(&window, "this can be saved as .svg, .pdf, .png, .tif, .csv, .json or .tex"), "{name}");
         assert_eq!(text(&window), path.to_str().unwrap(), "to be mended");
     }
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
@@ -172,7 +172,7 @@ fn the_systems_dialog_follows_the_ending_too() {
         assert_eq!(form_of(&path), form);
     }
     let Question::Save { endings, .. } = dialogs.asked.lock().unwrap()[0].clone() else { panic!("not to save") };
-    assert_eq!(endings, ["svg", "pdf", "png", "tif", "csv", "json"]);
+    assert_eq!(endings, ["svg", "pdf", "png", "tif", "csv", "json", "tex"]);
     // The dialog has closed: the path goes on in the box, with the reason.
     export(&mut window, FigureForm::Svg);
     answer.send(Answer::Chosen(vec![folder.path().join("d.eps")])).unwrap();

@@ -10,7 +10,7 @@ use chromascope::profiler::plans::PlansQuery;
 use chromascope::profiler::{Profiler, SceneRunJob};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
-use chromascope::workspaces::Workspace;
+use chromascope::workspaces::PaneKind;
 use chromascope_core::query::render::picture::PicturesQuery;
 use chromascope_core::reflectance::Normalization;
 use chromascope_core::render::QualityLevel;
@@ -102,7 +102,7 @@ fn one_button_measures() {
     let window = accuracy([1280.0, 800.0], egui::Theme::Light);
     assert_eq!(window.query_all_by_label("Run again").count(), 1, "one Run");
     let mut window = open([1280.0, 800.0], egui::Theme::Light);
-    window.state_mut().push(Command::Show(Workspace::Numerics));
+    window.state_mut().view.show(PaneKind::METHODS);
     window.run_steps(3);
     assert_eq!(window.query_all_by_label("Run").count(), 1, "one Run before anything is measured");
 }

@@ -49,14 +49,30 @@ fn window(size: [f32; 2], theme: egui::Theme) -> Window {
 }
 
 fn in_render(mut window: Window) -> Window {
-    window.state_mut().view.saved.workspace = Workspace::Render;
+    window.state_mut().view.show(PaneKind::RENDER);
     render(&mut window, |settings| settings.triangles = 4000);
     settle(&mut window);
     window
 }
 
 fn small() -> Window {
-    window([900.0, 600.0], egui::Theme::Dark)
+    alone(window([900.0, 600.0], egui::Theme::Dark))
+}
+
+/// The settings over the pictures.
+fn with_settings(mut window: Window) -> Window {
+    let view = &mut window.state_mut().view;
+    (view.column_over, view.saved.layout.right_lower_share) = (true, 0.85);
+    settle(&mut window);
+    window
+}
+
+/// Only the pictures.
+fn alone(mut window: Window) -> Window {
+    let view = &mut window.state_mut().view;
+    (view.saved.layout.left, view.saved.layout.compare[1]) = (false, None);
+    settle(&mut window);
+    window
 }
 
 /// Number of computations of a kind of query.
@@ -161,7 +177,7 @@ fn a_saved_session_keeps_the_coherent_component_that_it_was_made_with() {
 #[test]
 fn the_surface_says_its_limits_where_it_is_chosen() {
     // Tall, so that all of the settings are in sight.
-    let mut window = window([900.0, 1500.0], egui::Theme::Dark);
+    let mut window = with_settings(window([900.0, 1500.0], egui::Theme::Dark));
     let says = |window: &Window, words: &str| {
         window.query_all_by(|node| node.value().is_some_and(|label| label.contains(words))).count() > 0
     };
@@ -254,7 +270,7 @@ fn a_hidden_camera_is_not_computed() {
 #[test]
 fn a_hidden_workspace_asks_nothing() {
     let mut window = small();
-    window.state_mut().push(Command::Show(Workspace::Compare));
+    window.state_mut().push(Command::Show(Workspace::Data));
     settle(&mut window);
     let before = computed(&window);
     render(&mut window, |settings| settings.sigma_um = 3.0);
@@ -275,17 +291,18 @@ fn nothing_moves_when_nothing_changes() {
 }
 
 #[test]
-fn a_narrow_window_keeps_the_scene_pane() {
-    let mut window = small();
-    assert!(window.query_by_role_and_label(Role::Button, "Close Render settings").is_some());
-    let search = |window: &Window| window.query_by_role_and_label(Role::TextInput, "Search the library").is_some();
-    assert!(!search(&window));
-    press_like_keyboard(&mut window, "l");
-    assert!(search(&window), "it lies over the pictures");
-    assert!(window.query_by_role_and_label(Role::Button, "Close Render settings").is_some());
+fn a_narrow_window_has_a_handle_for_the_settings() {
+    let mut window = window([900.0, 600.0], egui::Theme::Dark);
+    let settings = |window: &Window| window.query_by_label_contains("Mesh: ").is_some();
+    assert!(!settings(&window));
+    window.get_by_role_and_label(Role::Button, "Show the right column (I)").click();
+    window.run_steps(3);
+    assert!(settings(&window), "they lie over the pictures");
     window.key_press(egui::Key::Escape);
     window.run_steps(2);
-    assert!(!search(&window));
+    assert!(!settings(&window));
+    press_like_keyboard(&mut window, "i");
+    assert!(settings(&window));
 }
 
 #[test]
@@ -297,7 +314,7 @@ fn a_double_click_shows_one_picture_and_all_again() {
     };
     // A step here takes a quarter of a second.
     window.ctx.options_mut(|options| options.input_options.max_double_click_delay = 5.0);
-    let at = egui::pos2(420.0, 190.0);
+    let at = egui::pos2(343.0, 320.0);
     window.hover_at(at);
     window.run_steps(1);
     click(&mut window, at);
@@ -339,7 +356,7 @@ fn the_divider_moves_by_drag_and_by_keys() {
 
 #[test]
 fn a_material_is_found_by_typing() {
-    let mut window = small();
+    let mut window = with_settings(small());
     window.get_by_label_contains("Material: ").click();
     window.run_steps(2);
     window.get_by_role_and_label(Role::TextInput, "Filter Material").focus();
@@ -373,7 +390,7 @@ fn a_material_is_found_by_typing() {
 
 #[test]
 fn escape_closes_a_list_before_anything_else() {
-    let mut window = small();
+    let mut window = with_settings(small());
     window.state_mut().view.saved.render.mode = RenderMode::One;
     window.get_by_label_contains("Mesh: ").click();
     window.run_steps(2);
@@ -388,7 +405,7 @@ fn escape_closes_a_list_before_anything_else() {
 fn a_click_keeps_a_pixel_and_escape_lets_go() {
     let mut window = small();
     // On the forehead in the second picture.
-    let at = egui::pos2(420.0, 190.0);
+    let at = egui::pos2(343.0, 320.0);
     window.hover_at(at);
     window.run_steps(2);
     let point = window.state().view.point.clone().expect("the pointer reads");
@@ -398,8 +415,10 @@ fn a_click_keeps_a_pixel_and_escape_lets_go() {
     settle(&mut window);
     let pinned = window.state().view.render.pinned.clone().expect("it is kept");
     assert_eq!(pinned.source.kind, SetKind::Camera);
+    let mut window = with_settings(window);
     assert!(window.query_by(|node| node.value().is_some_and(|text| text.starts_with("Pixel "))).is_some());
     assert!(window.query_by(|node| node.value().is_some_and(|text| text.contains("moments"))).is_some());
+    window.state_mut().view.column_over = false;
     window.key_press(egui::Key::Escape);
     window.run_steps(2);
     assert!(window.state().view.render.pinned.is_none());
@@ -467,35 +486,31 @@ fn escape_stops_what_takes_long_and_keeps_what_was_made() {
     assert_eq!(window.state().history.undo_name(), Some("Test"), "the choice stays");
 }
 
-/// Number of computations of the stages of a mesh after a change of the mesh, with another pane next to the pictures.
-fn made_for_a_mesh(beside: PaneKind) -> [u64; 4] {
-    const STAGES: [&str; 4] = ["mesh", "shadow tree", "visibility", "geometry"];
-    let mut window = open([1280.0, 800.0], egui::Theme::Dark);
-    window.state_mut().view.saved.layout.render[2] = Some(beside);
-    let mut window = in_render(window);
-    let before = STAGES.map(|stage| made(&window, stage));
-    let shadings = made(&window, "shading");
-    render(&mut window, |settings| settings.mesh = MeshChoice::Sphere);
-    for _ in 0..3 {
-        settle(&mut window);
-        window.state().later.wait();
-    }
-    assert_eq!(made(&window, "shading") > shadings + 3, beside == PaneKind::TOLERANCE, "plans are of shaded samples");
-    std::array::from_fn(|stage| made(&window, STAGES[stage]) - before[stage])
-}
-
 #[test]
 fn tolerance_builds_nothing_that_the_pictures_have() {
-    let alone = made_for_a_mesh(PaneKind::INSPECTOR);
+    const STAGES: [&str; 4] = ["mesh", "shadow tree", "visibility", "geometry"];
+    let mut window = window([1280.0, 800.0], egui::Theme::Dark);
+    let before = STAGES.map(|stage| made(&window, stage));
+    render(&mut window, |settings| settings.mesh = MeshChoice::Sphere);
+    let settled = |window: &mut Window| {
+        for _ in 0..3 {
+            settle(window);
+            window.state().later.wait();
+        }
+        std::array::from_fn(|stage| made(window, STAGES[stage]) - before[stage])
+    };
     // Pictures come coarse, fine and with several samples a pixel; the first two see the same.
-    assert_eq!(alone, [1, 1, 2, 3]);
-    assert_eq!(made_for_a_mesh(PaneKind::TOLERANCE), alone);
+    assert_eq!(settled(&mut window), [1, 1, 2, 3]);
+    let shadings = made(&window, "shading");
+    window.state_mut().view.show(PaneKind::TOLERANCE);
+    assert_eq!(settled(&mut window), [1, 1, 2, 3]);
+    assert!(made(&window, "shading") > shadings, "plans are of shaded samples");
 }
 
 #[test]
 fn a_pixel_is_marked_in_the_diagram_beside_the_pictures() {
     let mut window = window([1280.0, 800.0], egui::Theme::Light);
-    window.state_mut().view.saved.layout.render[1] = Some(PaneKind::CHROMATICITY);
+    window.state_mut().view.show(PaneKind::CHROMATICITY);
     settle(&mut window);
     let (catalog, results) = (chromascope::catalog::Catalog::built_in(), chromascope::results::Results::default());
     let document = document(&window).clone();

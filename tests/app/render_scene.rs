@@ -1,6 +1,6 @@
 //! The rendered scene as it opens, and the pane of its settings, in which nothing jumps.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use chromascope::action::{Action, RenderAction, SceneAction};
 use chromascope::app::ChromascopeApp;
@@ -8,13 +8,18 @@ use chromascope::catalog::Catalog;
 use chromascope::command::Command;
 use chromascope::document::render::{BALANCE, GARMENT, LEAF, MeshChoice, RenderSettings, SKY, SUN};
 use chromascope::document::{Document, Light, session};
+use chromascope::figures::chromaticity::id;
+use chromascope::figures::render::patch_at;
+use chromascope::render_service::RenderedFrame;
 use chromascope::results::Results;
 use chromascope::scene::Scene;
+use chromascope::scene::orbit::Orbit;
 use chromascope::view::PixelPlace;
-use chromascope::workspaces::Workspace;
+use chromascope::workspaces::PaneKind;
 use chromascope_core::query::render::MeshQuery;
 use chromascope_core::reflectance::Normalization;
 use chromascope_core::render::QualityLevel;
+use chromascope_mesh::stage::Stage;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -75,7 +80,8 @@ fn the_head_wears_a_garment_but_in_the_papers_figures() {
     let mut document = Document::colorimetry();
     let triangles = document.render.triangles;
     assert_eq!(document.render.worn(), Some(GARMENT));
-    assert_eq!(meshes(&document), MeshQuery::ClothedHead(triangles));
+    let stage = Stage { patches: 24, ground: true, hair: true, cropped: true };
+    assert_eq!(meshes(&document), MeshQuery::Staged(Box::new(MeshQuery::ClothedHead(triangles)), stage));
     assert!(document.render.materials().ends_with(", garment: Faded jeans 076 (Vrhel)"));
     document.render.take(MeshChoice::Fern);
     assert_eq!(document.render.worn(), None, "only the head wears one");
@@ -84,7 +90,22 @@ fn the_head_wears_a_garment_but_in_the_papers_figures() {
         Action::Render(figure).apply(&mut document);
         assert_eq!((document.render.worn(), meshes(&document)), (None, MeshQuery::Head(triangles)));
     }
-    assert_eq!(Document::paper().render.worn(), None);
+    let paper = Document::paper();
+    assert_eq!((paper.render.worn(), meshes(&paper)), (None, MeshQuery::Head(triangles)));
+}
+
+#[test]
+fn each_patch_of_the_chart_in_the_picture_is_told_by_its_pixels() {
+    let (document, catalog, results) = (Document::colorimetry(), Catalog::built_in(), Results::default());
+    let scene = Scene { document: &document, catalog: &catalog, results: &results };
+    let viewpoint = Orbit::of(&document.render).viewpoint(1.0).unwrap();
+    let frame = RenderedFrame::of_mesh(&scene, scene.mesh_of(None).unwrap(), viewpoint, 120).unwrap();
+    let source = id(&frame.sources[1]);
+    let at = |index: u32| [index % 120, index / 120].map(|v| (f64::from(v) + 0.5) / 120.0);
+    let of = |index| patch_at(&scene, &frame, &PixelPlace { at: at(index), source: source.clone() });
+    let found: BTreeSet<String> = (0..120 * 120).filter_map(of).collect();
+    let names: BTreeSet<String> = scene.patches().unwrap().patches().iter().map(|patch| patch.name.clone()).collect();
+    assert_eq!(found, names);
 }
 
 #[test]
@@ -136,7 +157,7 @@ fn places(window: &Window) -> BTreeMap<String, [i32; 4]> {
 #[test]
 fn nothing_in_the_settings_jumps_when_values_change() {
     let mut window = open([1280.0, 1400.0], egui::Theme::Light);
-    window.state_mut().push(Command::Show(Workspace::Render));
+    window.state_mut().view.show(PaneKind::RENDER);
     render(&mut window, |settings| settings.mesh = MeshChoice::Sphere);
     render(&mut window, |settings| settings.triangles = 2000);
     window.state().render_service.wait();
@@ -174,7 +195,7 @@ fn nothing_in_the_settings_jumps_when_values_change() {
 fn pictures_of_what_moves_do_not_wait_until_it_is_known_where_the_mesh_hides_the_sky() {
     let (executor, mut window) =
         crate::screenshots::driven_with(Document::colorimetry(), [1280.0, 800.0], egui::Theme::Light);
-    window.state_mut().view.saved.workspace = Workspace::Render;
+    window.state_mut().view.show(PaneKind::RENDER);
     window.run_steps(3);
     let known = |executor: &chromascope::jobs::Executor| {
         executor.results().counts().get("sky visibility").map_or(0, |count| count.misses)
@@ -194,12 +215,17 @@ fn pictures_of_what_moves_do_not_wait_until_it_is_known_where_the_mesh_hides_the
 fn the_scene_bar_tells_the_light_that_the_pictures_are_under() {
     let mut window = crate::screenshots::open_with(Document::colorimetry(), [1280.0, 800.0], egui::Theme::Light);
     let shows = |window: &Window, words: &str| window.query_all_by_label_contains(words).next().is_some();
-    assert!(!shows(&window, "Render's own light"), "panes beside the pictures have the light of the scene bar");
-    window.state_mut().view.saved.workspace = Workspace::Render;
+    assert!(!shows(&window, "pictures: sun"), "the views have the light of the scene bar");
+    window.state_mut().view.show(PaneKind::RENDER);
     window.run_steps(3);
-    let [light, white] = [format!("Light: {SUN}"), format!("White balance: {BALANCE}")];
-    assert!(shows(&window, "Render's own light") && shows(&window, &light) && shows(&window, &white));
+    assert!(shows(&window, "Light: D65") && shows(&window, "pictures: sun"), "another light is not kept silent");
+    window.get_by_label("pictures: sun").click();
+    window.run_steps(3);
+    assert!(!shows(&window, "pictures: sun") && !window.state().history.document().render.sunlight);
+    window.state_mut().push(Command::Undo);
+    window.run_steps(2);
+    assert!(shows(&window, "pictures: sun"));
     window.state_mut().push(Action::Scene(SceneAction::SetLight(Light::Set("A".to_owned()))));
     window.run_steps(3);
-    assert!(!shows(&window, "Render's own light") && shows(&window, "Light: A") && !shows(&window, &white));
+    assert!(!shows(&window, "pictures: sun") && shows(&window, "Light: A"), "a light that is chosen is for all views");
 }

@@ -7,11 +7,12 @@ use std::sync::Arc;
 use chromascope::action::history::History;
 use chromascope::app::ChromascopeApp;
 use chromascope::command::Command;
-use chromascope::document::Document;
 use chromascope::document::start::Start;
+use chromascope::document::{Document, SetKind};
+use chromascope::figures::FIGURES;
 use chromascope::files::{Answer, Dialogs, Files, Question};
 use chromascope::jobs::Executor;
-use chromascope::report::{Judged, NUMBERS, PAGE, PIXELS, Report, Verdict, numbers};
+use chromascope::report::{Judged, NUMBERS, PAGE, PIXELS, RANKING, Report, Verdict, numbers};
 use chromascope::results::Results;
 use chromascope::view::{ReportOn, SavedView};
 use egui_kittest::Harness;
@@ -92,7 +93,7 @@ fn what_the_paper_does_not_say_is_not_counted_among_its_claims() {
     let (claims, further): (Vec<&Judged>, Vec<&Judged>) = judged.iter().partition(|judged| judged.claim.is_of_paper());
     assert_eq!((claims.len(), further.len()), (13, 4));
     assert!(claims.iter().all(|judged| !judged.claim.paper.contains("at all temperatures")));
-    let files = paper().make(Report::STEPS - 1, &Results::default()).unwrap();
+    let files = paper().make(paper().steps() - 1, &Results::default()).unwrap();
     let text = |name: &str| {
         let file = files.iter().find(|file| file.name == name).unwrap();
         String::from_utf8(file.bytes.clone()).unwrap()
@@ -173,7 +174,7 @@ fn words_of(page: &str) -> String {
 #[test]
 fn the_samples_page_is_whole_and_needs_no_network() {
     let page = sample(PAGE);
-    let files = paper().make(Report::STEPS - 1, &Results::default()).unwrap();
+    let files = paper().make(paper().steps() - 1, &Results::default()).unwrap();
     let now = files.iter().find(|file| file.name == PAGE).unwrap();
     assert_eq!(words_of(&page), words_of(std::str::from_utf8(&now.bytes).unwrap()), "make the sample again");
     assert!(page.len() < 1_000_000, "{} bytes", page.len());
@@ -205,21 +206,25 @@ impl Dialogs for Chooses {
 
 type Window = Harness<'static, ChromascopeApp>;
 
-/// A window with a report begun in a folder.
+/// A window with a report on the paper begun in a folder.
 fn begun(executor: &Executor, folder: &Path) -> Window {
+    begun_on(executor, folder, ReportOn::Paper)
+}
+
+fn begun_on(executor: &Executor, folder: &Path, on: ReportOn) -> Window {
     let files = Files::new(None).with_dialogs(Arc::new(Chooses(folder.to_owned())));
     let builder = Harness::builder().with_size([1280.0, 800.0]).with_pixels_per_point(1.0).renderer(Cpu::default());
     let mut window = builder.build_eframe(|cc| {
         ChromascopeApp::on(executor, &cc.egui_ctx, History::new(Document::paper()), SavedView::default(), files)
     });
     window.run();
-    begin(executor, &mut window);
+    begin(executor, &mut window, on);
     window
 }
 
 /// Begins a report and waits for its folder.
-fn begin(executor: &Executor, window: &mut Window) {
-    window.state_mut().push(Command::Report(ReportOn::Paper));
+fn begin(executor: &Executor, window: &mut Window, on: ReportOn) {
+    window.state_mut().push(Command::Report(on));
     until("the first figure", || {
         window.step();
         if executor.run_one("report") { Ok(()) } else { Err("no report is made".to_owned()) }
@@ -243,7 +248,7 @@ fn a_report_of_the_window_shows_its_progress_and_can_be_stopped() {
     executor.run_all();
     assert!(!folder.join("figure3.pdf").exists());
     // Another one has a folder of its own, and its last step needs none before it.
-    begin(&executor, &mut window);
+    begin(&executor, &mut window, ReportOn::Paper);
     assert!(parent.path().join("Chromascope report 2/figure1.svg").is_file());
     window.key_press(egui::Key::Escape);
     window.run_steps(2);
@@ -274,7 +279,7 @@ fn a_report_of_the_window_is_whole() {
     let said = window.state().view.status.text.clone();
     let folder = parent.path().join("Chromascope report");
     assert!(said.starts_with("Report saved") && said.contains(PAGE), "{said}");
-    for name in Report::names() {
+    for name in paper().names() {
         let bytes = std::fs::read(folder.join(&name)).unwrap_or_else(|error| panic!("{name}: {error}"));
         let start: &[u8] = match name.rsplit('.').next() {
             Some("pdf") => b"%PDF-",
@@ -287,4 +292,30 @@ fn a_report_of_the_window_is_whole() {
     }
     let page = std::fs::read_to_string(folder.join(PAGE)).unwrap();
     assert_eq!(page.matches("<svg").count(), 9);
+}
+
+#[test]
+fn a_report_on_a_comparison_is_one_page_that_needs_no_other_file() {
+    let parent = tempfile::tempdir().unwrap();
+    let executor = Executor::driven();
+    let mut window = begun_on(&executor, parent.path(), ReportOn::Comparison);
+    executor.run_all();
+    window.run_steps(2);
+    let folder = parent.path().join("Chromascope report");
+    let mut names: Vec<_> = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    names.sort();
+    assert_eq!(names, [RANKING, PAGE]);
+    let page = std::fs::read_to_string(folder.join(PAGE)).unwrap();
+    let reported = FIGURES.iter().filter(|kind| kind.is_reported);
+    for kind in reported.clone() {
+        assert!(page.contains(&format!("<figure id=\"{}\">", kind.key)), "{}: {page}", kind.key);
+    }
+    assert_eq!(page.matches("<svg").count(), reported.count());
+    assert!(
+        !page.replace("href=\"data:", "").contains("href=") && !page.contains("<script") && !page.contains("Missing")
+    );
+    let cameras = Document::paper().compared.into_iter().filter(|of| of.kind == SetKind::Camera);
+    assert!(
+        cameras.clone().count() > 1 && cameras.into_iter().all(|of| page.contains(&format!("<td>{}</td>", of.name)))
+    );
 }

@@ -159,8 +159,11 @@ fn every_row_has_a_menu_with_all_forms() {
     let mut window = open([1280.0, 800.0], egui::Theme::Dark);
     let set = own("zoo.csv", "nm,red,green,blue\n400,0,1,5\n500,1,8,4\n600,9,5,1\n700,5,1,0\n", Role::Camera);
     window.state_mut().push(crate::import_sets(vec![ImportedSet { name: "Zoo".to_owned(), ..set }]));
+    window.state_mut().view.adding = true;
     window.run();
     for (menu, own) in [("Menu of your Zoo", true), ("Menu in the library of ARRI D21", false)] {
+        window.state_mut().view.adding = true;
+        window.run();
         window.get_by_role_and_label(accesskit::Role::Button, menu).click();
         window.run();
         assert_eq!(window.query_by_role_and_label(accesskit::Role::Button, "Remove").is_some(), own);
@@ -178,11 +181,18 @@ fn every_row_has_a_menu_with_all_forms() {
         assert!(window.query_by_role_and_label(accesskit::Role::Button, "CSV, as measured").is_none());
     }
     // The menu key opens it too; a light does not fit everywhere.
-    window.state_mut().view.search = "D65".to_owned();
+    window.state_mut().view.adding = true;
     window.run();
-    window.get_by_role_and_label(accesskit::Role::RadioButton, "D65").focus();
+    window.get_by_role_and_label(accesskit::Role::CheckBox, "ARRI D21").focus();
     window.run();
     window.key_press(egui::Key::Menu);
+    window.run();
+    assert!(window.query_by_label_contains("Save as").is_some());
+    window.key_press(egui::Key::Escape);
+    window.state_mut().view.show(chromascope::workspaces::PaneKind::LIBRARY);
+    window.state_mut().view.selected = Some(chromascope::plot_item::PlotItem::of_set(SetKind::Illuminant, "D65"));
+    window.run();
+    window.get_by_role_and_label(accesskit::Role::Button, "More").click();
     window.run();
     window.get_by(|node| node.label().is_some_and(|label| label.starts_with("Save as"))).click();
     window.run();

@@ -16,7 +16,7 @@ use chromascope::profiler::SceneRun;
 use chromascope::view::RenderMode;
 use chromascope::view::import::ImportItem;
 use chromascope::view::{DiagramFit, SavedView};
-use chromascope::workspaces::{PaneKind, Workspace};
+use chromascope::workspaces::PaneKind;
 use egui_kittest::Harness;
 
 use crate::cpu_renderer::{Cpu, compare};
@@ -101,7 +101,7 @@ fn compare_small() {
 #[test]
 fn metrics() {
     let mut harness = open_with(Document::colorimetry(), [1280.0, 800.0], egui::Theme::Light);
-    harness.state_mut().view.saved.workspace = Workspace::Metrics;
+    harness.state_mut().view.show(PaneKind::METRICS);
     harness.run_steps(3);
     harness.state().later.wait();
     check(harness, "metrics.png");
@@ -144,7 +144,7 @@ fn whole_diagram() {
 #[test]
 fn spectra() {
     let mut harness = open([1280.0, 800.0], egui::Theme::Light);
-    harness.state_mut().view.saved.workspace = Workspace::Spectra;
+    harness.state_mut().view.show(PaneKind::SPECTRA);
     harness.run();
     check(harness, "spectra.png");
 }
@@ -156,7 +156,7 @@ fn render(
     change: impl FnOnce(&mut ChromascopeApp),
 ) -> Harness<'static, ChromascopeApp> {
     let mut harness = open(size, theme);
-    harness.state_mut().view.saved.workspace = Workspace::Render;
+    harness.state_mut().view.show(PaneKind::RENDER);
     change(harness.state_mut());
     for _ in 0..4 {
         harness.run_steps(2);
@@ -258,7 +258,7 @@ pub(crate) fn accuracy(size: [f32; 2], theme: egui::Theme) -> Harness<'static, C
     let mut harness = open(size, theme);
     let Measured { run } = Measured::kept();
     let view = &mut harness.state_mut().view;
-    view.saved.workspace = Workspace::Numerics;
+    view.show(PaneKind::METHODS);
     view.fixed_clock = true;
     let measured = &mut harness.state_mut().profiler.measured;
     measured.run = Some(std::sync::Arc::new(run));

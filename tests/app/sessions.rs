@@ -21,7 +21,7 @@ use chromascope::view::import::ImportItem;
 use chromascope::view::template::TEMPLATES;
 use chromascope::view::{SavedView, Weight};
 use chromascope::view::{Sorting, TableLook};
-use chromascope::workspaces::Workspace;
+use chromascope::workspaces::{PaneKind, Workspace};
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
@@ -127,7 +127,7 @@ fn a_session_made_here_opens_in_a_fresh_home() {
     push(&mut here, Command::OpenPath(leaf.clone()));
     until(&mut here, "the leaf", |app| !app.history.document().own.is_empty());
     push(&mut here, temperature(3210.0));
-    push(&mut here, Command::Show(Workspace::Spectra));
+    here.state_mut().view.show(PaneKind::SPECTRA);
     push(&mut here, Command::Look("spectra_layout", 1));
     assert_eq!(here.state().title(), "*Untitled – Chromascope");
     let path = folder.join("fig3.chromascope");
@@ -150,7 +150,8 @@ fn a_session_made_here_opens_in_a_fresh_home() {
     assert!(document(&there).is_same_session(&document(&here)), "all but the folder of the leaf");
     assert_eq!(document(&there).own[0].path, None);
     let saved = &there.state().view.saved;
-    assert_eq!((saved.workspace, saved.spectra_layout), (Workspace::Spectra, chromascope::view::SpectraLayout::Each));
+    assert_eq!(saved.layout.compare[0], Some(PaneKind::SPECTRA));
+    assert_eq!(saved.spectra_layout, chromascope::view::SpectraLayout::Each);
     assert_eq!(saved.recent, [path]);
     assert_eq!(there.state().title(), "fig3 – Chromascope");
     let own = &document(&there).own[0];
@@ -386,7 +387,7 @@ fn own_templates_are_kept_by_name_and_stay_as_they_are() {
     let profile = folder.join("profile");
     let mut one = window(&profile);
     push(&mut one, temperature(3456.0));
-    push(&mut one, Command::Show(Workspace::Spectra));
+    one.state_mut().view.show(PaneKind::SPECTRA);
     push(&mut one, SessionCommand::SaveTemplate);
     one.get_by_role_and_label(Role::TextInput, "Name of the template").type_text("Lamps/LED");
     one.run_steps(2);
@@ -400,7 +401,7 @@ fn own_templates_are_kept_by_name_and_stay_as_they_are() {
     push(&mut next, SessionCommand::NewFrom(path.clone()));
     until(&mut next, "the template", |app| app.history.document().temperature_k == 3456.0);
     next.run_steps(2);
-    assert_eq!(next.state().view.saved.workspace, Workspace::Spectra);
+    assert!(next.state().view.is_shown(PaneKind::SPECTRA));
     assert_eq!((next.state().title(), document(&next).session), ("*Untitled – Chromascope", None));
     push(&mut next, SessionCommand::RemoveTemplate(path.clone()));
     assert!(!path.exists() && next.state().view.templates.is_empty());
@@ -437,7 +438,7 @@ fn a_table_from_a_spreadsheet_opens_in_import_and_curves_are_copied_as_text() {
         Command::Paste("nm\tleaf\tbark\n400\t0.05\t0.1\n500\t0.1\t\n600\t0.2\t0.3\n700\t0.5\t0.4\n".to_owned()),
     );
     until(&mut window, "the set", |app| !app.history.document().own.is_empty());
-    assert_eq!(window.state().view.saved.workspace, Workspace::Import);
+    assert_eq!(window.state().view.saved.workspace, Workspace::Data);
     let set = document(&window).own[0].clone();
     assert_eq!(window.state().view.import.selected, Some(ImportItem::Set(set.name.clone())));
     window.state_mut().push(Command::CopySet(SetKind::of_own(&set), set.name.clone()));
@@ -452,7 +453,7 @@ fn a_table_from_a_spreadsheet_opens_in_import_and_curves_are_copied_as_text() {
     // One that cannot be read is shown there too.
     let mut other = self::window(&folder.join("other"));
     push(&mut other, Command::Paste("no numbers at all".to_owned()));
-    until(&mut other, "the failure", |app| app.view.saved.workspace == Workspace::Import);
+    until(&mut other, "the failure", |app| app.view.saved.workspace == Workspace::Data);
 }
 
 #[test]

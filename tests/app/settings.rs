@@ -7,7 +7,7 @@ use chromascope::command::Command;
 use chromascope::document::Document;
 use chromascope::document::render::{MeshChoice, NEAR, RenderSettings};
 use chromascope::export::Paper;
-use chromascope::workspaces::Workspace;
+use chromascope::workspaces::PaneKind;
 use chromascope_core::render::QualityLevel;
 use chromascope_text::{Setting, Settings, Value};
 use egui::Key;
@@ -141,7 +141,7 @@ fn has_control(window: &Window, setting: &Setting<RenderSettings>) -> bool {
 #[test]
 fn each_has_a_control_a_line_in_the_palette_and_an_undo_step() {
     let mut window = open_with(Document::colorimetry(), [1280.0, 1700.0], egui::Theme::Dark);
-    window.state_mut().push(Command::Show(Workspace::Render));
+    window.state_mut().view.show(PaneKind::RENDER);
     window.run_steps(3);
     let settings = |window: &Window| window.state().history.document().render.clone();
     let begun = settings(&window);

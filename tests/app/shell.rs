@@ -10,7 +10,8 @@ use chromascope::document::{Document, SetKind};
 use chromascope::files::Files;
 use chromascope::plot_item::PlotItem;
 use chromascope::view::SavedView;
-use chromascope::workspaces::{PaneKind, Workspace};
+use chromascope::view::tour::Tour;
+use chromascope::workspaces::PaneKind;
 use eframe::App as _;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
@@ -35,6 +36,7 @@ fn wait(window: &mut Window, seconds: f64) {
 }
 
 fn row(window: &mut Window, name: &str) -> egui::Rect {
+    window.state_mut().view.adding = true;
     name.clone_into(&mut window.state_mut().view.search);
     window.run();
     window.get_by_role_and_label(Role::CheckBox, name).rect()
@@ -144,11 +146,11 @@ fn the_tour_plays_five_scenes_on_live_data_and_leaves_the_document_as_it_was() {
     let selected = Some(patch("Kodak DCS200", "red"));
     let view = &mut window.state_mut().view;
     view.selected.clone_from(&selected);
-    view.saved.workspace = Workspace::Metrics;
+    view.show(PaneKind::METRICS);
     window.run_steps(2);
     let before = window.state().history.document().clone();
     let saved = window.state().saved_view();
-    window.state_mut().push(Command::Tour(TourMove::Begin));
+    window.state_mut().push(Command::Tour(TourMove::Begin(Tour::Paper)));
     window.run_steps(3);
     // The numbers of the paper's help page, computed here anew.
     for (title, numbers) in [
@@ -183,6 +185,26 @@ fn the_tour_plays_five_scenes_on_live_data_and_leaves_the_document_as_it_was() {
 }
 
 #[test]
+fn the_tour_of_the_program_shows_its_places_as_its_words_say() {
+    let mut window = open_with(Document::colorimetry(), SIZE, egui::Theme::Light);
+    window.state_mut().push(Command::Tour(TourMove::Begin(Tour::Program)));
+    window.run_steps(3);
+    for (step, of) in Tour::Program.steps().iter().enumerate() {
+        let view = &window.state().view;
+        assert!(says(&window, &format!("{} of 5  {}", step + 1, of.title)), "{}", of.title);
+        let place = view.saved.workspace.label();
+        assert!(of.is_printed || of.title.starts_with(place), "{}: {place}", of.title);
+        assert_eq!(view.page, of.is_printed.then_some(of.pane));
+        assert!(of.is_printed || view.saved.layout.shows(view.saved.workspace, of.pane), "{}", of.title);
+        let compared = &window.state().history.document().compared;
+        assert_eq!(compared.iter().any(|sensor| sensor.name == "Nikon D3300"), step > 0, "as the text says");
+        press(&mut window, if step < 4 { "Next" } else { "End" });
+    }
+    assert_eq!((window.state().view.tour, window.state().view.page), (None, None));
+    assert_eq!(*window.state().history.document(), Document::colorimetry());
+}
+
+#[test]
 fn during_the_tour_the_users_document_is_the_one_that_is_kept() {
     let folder = tempfile::tempdir().unwrap();
     let document = Document { temperature_k: 3210.0, ..Document::colorimetry() };
@@ -196,7 +218,7 @@ fn during_the_tour_the_users_document_is_the_one_that_is_kept() {
     };
     let (mut window, _) = open(document.clone());
     window.run();
-    window.state_mut().push(Command::Tour(TourMove::Begin));
+    window.state_mut().push(Command::Tour(TourMove::Begin(Tour::Paper)));
     window.run_steps(3);
     window.state_mut().push(Action::Scene(SceneAction::SetTemperature(9000.0)));
     window.run_steps(3);
@@ -209,13 +231,13 @@ fn during_the_tour_the_users_document_is_the_one_that_is_kept() {
 #[test]
 fn work_on_the_users_document_ends_the_tour() {
     let mut window = open(SIZE, egui::Theme::Light);
-    window.state_mut().push(Command::Tour(TourMove::Begin));
+    window.state_mut().push(Command::Tour(TourMove::Begin(Tour::Paper)));
     window.run_steps(2);
     window.state_mut().push(Action::Start(Start::Colorimetry));
     window.run_steps(2);
     assert_eq!(window.state().view.tour, None);
     assert_eq!(window.state().history.document().start, Start::Colorimetry);
-    window.state_mut().push(Command::Tour(TourMove::Begin));
+    window.state_mut().push(Command::Tour(TourMove::Begin(Tour::Paper)));
     window.run_steps(2);
     for _ in 0..3 {
         window.state_mut().push(Command::Escape);

@@ -16,7 +16,7 @@ use chromascope::render_service::pixel::PixelShows;
 use chromascope::scene::Scene;
 use chromascope::scene::spectral_image::screen_steps;
 use chromascope::view::{PixelPlace, RenderMode};
-use chromascope::workspaces::{PaneKind, Workspace};
+use chromascope::workspaces::PaneKind;
 use chromascope_core::render::{BandWeights, ImageSensor, SampleQuantity, Stop};
 use chromascope_core::spectral::{Dataset, GridSpectrum, Sensor};
 use chromascope_figure::{Cell, FigureRoom};
@@ -98,7 +98,7 @@ fn pixels_of_a_chart_image_equal_its_patches() {
     let mut document = Document::colorimetry();
     document.chart = CHART.to_owned();
     let window = opened(document, &folder.join("chart.img"), [1280.0, 800.0]);
-    assert_eq!(window.state().view.saved.workspace, Workspace::Render);
+    assert!(window.state().view.is_shown(PaneKind::RENDER));
     let (app, catalog) = (window.state(), Catalog::built_in());
     let scene = Scene { document: app.history.document(), catalog: &catalog, results: &app.results };
     let shot = app.render_service.frame().cloned().expect("pictures");
@@ -138,7 +138,7 @@ fn an_image_is_undone_kept_in_a_session_and_missed() {
     assert!(!session::is_session(b"ENVI\n"));
     std::fs::remove_file(&path).unwrap();
     let mut window = open_with(document, [1280.0, 800.0], egui::Theme::Dark);
-    window.state_mut().push(Command::Show(Workspace::Render));
+    window.state_mut().view.show(PaneKind::RENDER);
     until("the reason", || {
         window.run_steps(2);
         match window.state().images.get(&path) {
@@ -245,7 +245,7 @@ fn an_unstated_quantity_is_asked_for_and_radiances_take_no_light() {
     let mut document = Document::colorimetry();
     document.render.mesh = MeshChoice::Image(path);
     let mut window = open_with(document, [1280.0, 800.0], egui::Theme::Dark);
-    window.state_mut().push(Command::Show(Workspace::Render));
+    window.state_mut().view.show(PaneKind::RENDER);
     until("the question", || {
         window.run_steps(2);
         window.state().render_service.wait();

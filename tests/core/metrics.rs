@@ -7,7 +7,8 @@ use chromascope_core::correction::Correction;
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::patch_set::{COLOR_CHECKER_CHROMATIC, PatchSet};
 use chromascope_core::query::metrics::{
-    Better, Contributions, Difference, LocusDeviationQuery, MetricGroup, Statistic, UncertaintySource, rank_ranges,
+    Better, Contributions, Difference, LocusDeviationQuery, MetricGroup, MetricSet, Statistic, UncertaintySource,
+    rank_ranges,
 };
 use chromascope_core::query::{
     Ask, CameraMetric, CameraMetrics, CameraMetricsQuery, ColorTransformSpec, DifferenceError, Direct, IndexConditions,
@@ -42,6 +43,7 @@ fn query_under(light: &str, sample: Sensor, transform: &ColorTransformSpec, refe
             patches: Shared::new(chart().subset(&COLOR_CHECKER_CHROMATIC)),
         },
         electrons: None,
+        wanted: MetricSet::ALL,
     }
 }
 

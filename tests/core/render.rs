@@ -3,6 +3,7 @@
 mod diffuse;
 mod drawn;
 mod fixture;
+mod ground;
 mod images;
 mod shadow;
 mod skipping;

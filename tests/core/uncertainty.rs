@@ -1,6 +1,7 @@
 //! Uncertainties of metrics against simulations that perturb whole tables with an independent generator.
 
 mod own;
+mod sampling;
 
 use std::any::{Any, TypeId};
 use std::cell::RefCell;
@@ -13,7 +14,7 @@ use chromascope_core::correction::minimize::Objective;
 use chromascope_core::correction::{Correction, CorrectionMethod};
 use chromascope_core::data;
 use chromascope_core::patch_set::COLOR_CHECKER_CHROMATIC;
-use chromascope_core::query::metrics::{MetricGroup, OwnUncertainties, UncertaintySource};
+use chromascope_core::query::metrics::{MetricGroup, MetricSet, OwnUncertainties, UncertaintySource};
 use chromascope_core::query::{
     Ask, CameraMetric, CameraMetricsQuery, ColorTransformSpec, Direct, IndexConditions, MetricUncertaintiesQuery,
     MetricUncertainty, Query, RenderingQuery, Shared,
@@ -109,6 +110,7 @@ fn under(camera: Sensor, illuminant: &str, correction: Correction) -> CameraMetr
             patches: Shared::new(chart().subset(&COLOR_CHECKER_CHROMATIC)),
         },
         electrons: None,
+        wanted: MetricSet::ALL,
     }
 }
 

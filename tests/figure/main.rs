@@ -106,7 +106,7 @@ fn ticks_of_an_axis_have_the_same_decimals() {
 fn zero_is_labeled_before_its_neighbors() {
     let at = [-0.4, 0.0, 1.0].map(|value| (value, format!("{value:.1}")));
     let axis = Axis::new("", [-0.4, 1.0]).with_ticks(Ticks::At(at.to_vec()));
-    let read: Vec<String> = axis.ticks_over(axis.range, 140.0).into_iter().map(|tick| tick.label).collect();
+    let read: Vec<String> = axis.ticks_over(axis.range, 70.0).into_iter().map(|tick| tick.label).collect();
     assert_eq!(read, ["", "0.0", "1.0"]);
 }
 
@@ -396,4 +396,15 @@ fn a_text_begins_where_its_anchor_says() {
     for anchor in [0.1, 0.2, 0.37, 0.5, 0.63, 0.8, 0.95, 1.0] {
         assert!((left(0.0) - left(anchor) - anchor * width).abs() < 0.02, "{anchor}");
     }
+}
+
+#[test]
+fn tables_are_written_as_latex() {
+    let mut table = Table::new(["metric", "A", "A uncertainty", "light"]);
+    for (name, value, by) in [("ΔE*00 95 %", 2.043, 0.21), ("x_y", -0.5, 0.04)] {
+        table.push([name.into(), Cell::from(value).with(|note| note.uncertainty = Some(by)), by.into(), "D65".into()]);
+    }
+    let rows = "metric & A \\\\\n\\midrule\n$\\Delta$E*00 95 \\% & 2.04 $\\pm$ 0.21 \\\\\nx\\_y & $-$0.500 $\\pm$ 0.040 \\\\\n";
+    let text = table.to_latex("A & B");
+    assert!(text.contains(rows) && text.contains("\\caption{A \\& B. light: D65.}") && text.contains("{lr}"), "{text}");
 }

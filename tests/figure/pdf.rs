@@ -14,6 +14,7 @@ use super::{Gray, written, written_with};
 const FONTS: PdfFonts = PdfFonts {
     text: include_bytes!("../../assets/fonts/DejaVuSans.ttf"),
     mono: include_bytes!("../../assets/fonts/DejaVuSansMono.ttf"),
+    fallback: include_bytes!("../../assets/fonts/DejaVuSans.ttf"),
 };
 
 fn word(text: &str, at: [f64; 2]) -> Mark {

@@ -1,8 +1,8 @@
 //! The head, bare and clothed: how many triangles, that it is closed, symmetric, smooth, of human proportions and on one limit
 //! surface; and that the collar stands off the neck.
 
-use chromascope_mesh::Mesh;
 use chromascope_mesh::head::{FEWEST, clothed, head};
+use chromascope_mesh::{Mesh, Part};
 use glam::Vec3;
 use std::collections::BTreeMap;
 
@@ -161,15 +161,16 @@ fn proportions_are_human() {
 #[test]
 fn a_garment_hides_the_shoulders_and_its_collar_stands_off_the_neck() {
     let mesh = clothed(120_000);
-    let first = (0..mesh.triangles().len() as u32).find(|&triangle| mesh.is_garment(triangle)).unwrap() as usize;
-    assert!(!head(20_000).is_garment(19_000) && mesh.is_garment(mesh.triangles().len() as u32 - 1));
+    let first =
+        (0..mesh.triangles().len() as u32).find(|&triangle| mesh.part(triangle) == Part::Garment).unwrap() as usize;
+    assert!(head(20_000).part(19_000) == Part::Body && mesh.part(mesh.triangles().len() as u32 - 1) == Part::Garment);
     let skin =
         Mesh::new(mesh.positions().to_vec(), mesh.normals().to_vec(), mesh.triangles()[..first].to_vec()).unwrap();
     // From before and at half height between chin and base: the garment lies before the skin, at the collar by its thickness.
     let ahead = |x: f32, y: f32| {
         let (triangle, z) = foremost(&mesh, x, y)?;
         let (_, behind) = foremost(&skin, x, y)?;
-        mesh.is_garment(triangle as u32).then_some(z - behind)
+        (mesh.part(triangle as u32) == Part::Garment).then_some(z - behind)
     };
     for x in [-0.1, -0.04, 0.0, 0.04, 0.1] {
         assert!(ahead(x, 0.0).is_none() && ahead(x, -0.15).is_some_and(|gap| (0.002..0.02).contains(&gap)), "{x}");

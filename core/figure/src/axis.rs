@@ -75,26 +75,31 @@ impl Axis {
     }
 
     /// Ticks inside `range`, in ascending order, for an axis drawn `length` points long. Labels stand
-    /// [`MIN_LABEL_SPACING`] apart.
+    /// [`MIN_LABEL_SPACING`] apart; given ones as close as their widths allow.
     pub fn ticks_over(&self, range: [f64; 2], length: f64) -> Vec<Tick> {
+        self.spaced(range, length, if matches!(self.ticks, Ticks::At(_)) { 0.0 } else { MIN_LABEL_SPACING })
+    }
+
+    fn spaced(&self, range: [f64; 2], length: f64, spacing: f64) -> Vec<Tick> {
         let range = proper(range);
         let mut ticks = match &self.ticks {
             Ticks::None => Vec::new(),
             Ticks::Auto => auto_ticks(range, length),
             Ticks::At(at) => inside(at, range),
         };
-        thin_out(&mut ticks, range, length);
+        thin_out(&mut ticks, range, length, spacing);
         ticks
     }
 
     /// Ticks of a vertical axis drawn `length` points long. Labels given for it may stand closer, and others where a single one
     /// would be left: lines of text are low.
     pub fn vertical_ticks_over(&self, range: [f64; 2], length: f64) -> Vec<Tick> {
-        let ticks = self.ticks_over(range, if matches!(self.ticks, Ticks::At(_)) { 3.5 } else { 1.0 } * length);
+        let stretch = if matches!(self.ticks, Ticks::At(_)) { 3.5 } else { 1.0 };
+        let ticks = self.spaced(range, stretch * length, MIN_LABEL_SPACING);
         if self.ticks != Ticks::Auto || ticks.len() > 1 {
             return ticks;
         }
-        self.ticks_over(range, 2.0 * length)
+        self.spaced(range, 2.0 * length, MIN_LABEL_SPACING)
     }
 }
 
@@ -206,7 +211,7 @@ fn inside(at: &[(f64, String)], range: [f64; 2]) -> Vec<Tick> {
 }
 
 /// Takes away labels that are too close: that of 0 and those at the ends stay if they can, the others where there is room.
-fn thin_out(ticks: &mut [Tick], range: [f64; 2], length: f64) {
+fn thin_out(ticks: &mut [Tick], range: [f64; 2], length: f64, spacing: f64) {
     let spans: Vec<Option<Span>> = ticks.iter().map(|tick| Span::of(tick, range, length)).collect();
     let first = spans.iter().position(Option::is_some);
     let last = spans.iter().rposition(Option::is_some);
@@ -214,7 +219,7 @@ fn thin_out(ticks: &mut [Tick], range: [f64; 2], length: f64) {
     let mut kept: Vec<Span> = Vec::new();
     for index in zero.into_iter().chain(first).chain(last).chain(0..ticks.len()) {
         let Some(span) = spans[index].filter(|span| !kept.contains(span)) else { continue };
-        if kept.iter().all(|other| span.is_clear_of(*other)) {
+        if kept.iter().all(|other| span.is_clear_of(*other, spacing)) {
             kept.push(span);
         }
     }
@@ -242,9 +247,9 @@ impl Span {
         (!tick.label.is_empty()).then_some(Self { tick: at, middle, half })
     }
 
-    fn is_clear_of(self, other: Self) -> bool {
+    fn is_clear_of(self, other: Self, spacing: f64) -> bool {
         // Steps may fall short of the spacing by rounding.
-        let apart = (self.tick - other.tick).abs() >= MIN_LABEL_SPACING * (1.0 - 1e-3);
-        apart && (self.middle - other.middle).abs() >= self.half + other.half + 6.0
+        let apart = (self.tick - other.tick).abs() >= spacing * (1.0 - 1e-3);
+        apart && (self.middle - other.middle).abs() >= self.half + other.half + if spacing > 0.0 { 6.0 } else { 3.0 }
     }
 }

@@ -11,6 +11,7 @@ mod axis;
 mod clip;
 mod ink;
 mod labels;
+mod latex;
 mod mark;
 pub mod number;
 mod page;

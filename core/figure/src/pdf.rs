@@ -42,6 +42,8 @@ pub struct PdfFonts {
     pub text: &'static [u8],
     /// Font of [`TextSize::Mono`].
     pub mono: &'static [u8],
+    /// Font of lines with a character that theirs lacks.
+    pub fallback: &'static [u8],
 }
 
 /// The longest side of a page in points.
@@ -52,7 +54,9 @@ const MAX_SIDE: f64 = 14_400.0;
 /// # Errors
 /// If a font cannot be read, or the page is too small or too large.
 pub fn write(figure: &Figure, palette: &dyn Palette, fonts: PdfFonts, layout: &PageStyle) -> Result<Vec<u8>, PdfError> {
-    let fonts = [Typeface::new(fonts.text)?, Typeface::new(fonts.mono)?];
+    let fonts = [fonts.text, fonts.mono, fonts.fallback].map(Typeface::new);
+    let [text, mono, fallback] = fonts;
+    let fonts = [text?, mono?, fallback?];
     let page = Page::new(figure, layout);
     let scale = page.scale(layout);
     let size = [page.area.width(), page.area.height()].map(|side| side * scale);
@@ -85,6 +89,10 @@ impl Typeface {
         Ok(Self { face: Face::from_slice(bytes, 0).ok_or(PdfError::Font)?, font })
     }
 
+    fn has(&self, text: &str) -> bool {
+        text.chars().all(|c| self.face.glyph_index(c).is_some())
+    }
+
     /// The glyphs of a line of text, and its width for a font size of 1.
     fn shaped(&self, text: &str) -> (Vec<KrillaGlyph>, f32) {
         let mut buffer = UnicodeBuffer::new();
@@ -109,7 +117,7 @@ impl Typeface {
 struct Pdf<'a, 'b> {
     surface: &'a mut Surface<'b>,
     palette: &'a dyn Palette,
-    fonts: [Typeface; 2],
+    fonts: [Typeface; 3],
     /// True for each open group that is clipped.
     clipped: Vec<bool>,
 }
@@ -194,7 +202,9 @@ impl Canvas for Pdf<'_, '_> {
     }
 
     fn text(&mut self, label: &TextLine<'_>) {
-        let typeface = &self.fonts[usize::from(label.size == TextSize::Mono)];
+        let [text, mono, fallback] = &self.fonts;
+        let wanted = if label.size == TextSize::Mono { mono } else { text };
+        let typeface = if wanted.has(label.text) { wanted } else { fallback };
         let (glyphs, width) = typeface.shaped(label.text);
         let (font, points) = (typeface.font.clone(), label.size.points());
         let start = Point::from_xy(-label.anchor.0 as f32 * width * points, label.baseline() as f32);

@@ -37,15 +37,30 @@ pub struct FigureRoom {
     pub height: Option<f64>,
     /// True if the chromaticity diagram has its strip below.
     pub strip: bool,
+    /// True if the chromaticity diagram has its patches.
+    pub patches: bool,
+    /// True if the chromaticity diagram has its Planckian loci.
+    pub loci: bool,
     /// Ranges of the axes.
     pub ranges: AxisRanges,
+    /// Ends of x and of y of the first plot; equal ones for its own.
+    pub limits: [[f64; 2]; 2],
     /// Extent of the numbers.
     pub numbers: Numbers,
 }
 
 impl Default for FigureRoom {
     fn default() -> Self {
-        Self { width: None, height: None, strip: true, ranges: AxisRanges::Screen, numbers: Numbers::All }
+        Self {
+            width: None,
+            height: None,
+            strip: true,
+            patches: true,
+            loci: true,
+            ranges: AxisRanges::Screen,
+            limits: [[0.0; 2]; 2],
+            numbers: Numbers::All,
+        }
     }
 }
 

@@ -146,6 +146,8 @@ pub struct Note {
     pub is_gray: bool,
     /// Decimals without an uncertainty, where the cell has others than its column.
     pub decimals: Option<usize>,
+    /// Two colors in sRGB side by side in place of the text, which names them.
+    pub swatch: Option<[[u8; 3]; 2]>,
     /// Words in place of the number, such as a range of ranks.
     pub words: Option<String>,
     /// Explanation under the pointer, such as the reason for a missing value.
@@ -158,6 +160,7 @@ impl Note {
         is_extrapolated: false,
         is_gray: false,
         decimals: None,
+        swatch: None,
         words: None,
         hint: String::new(),
     };

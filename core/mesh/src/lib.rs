@@ -9,8 +9,9 @@ pub mod mesh;
 pub mod reading;
 pub mod shadow;
 pub mod shapes;
+pub mod stage;
 #[cfg(feature = "data")]
 mod subdivision;
 
-pub use mesh::{Bounds, Mesh, MeshError};
+pub use mesh::{Bounds, Mesh, MeshError, Part};
 pub use shadow::ShadowTree;

@@ -1,6 +1,7 @@
 //! Triangles with a normal at each vertex.
 
 use glam::Vec3;
+use rayon::prelude::*;
 use std::hash::{Hash, Hasher};
 
 /// Reason that vertices and triangles make no mesh.
@@ -15,6 +16,38 @@ pub enum MeshError {
     Vertex { triangle: usize, vertex: u32 },
     #[error("vertex {vertex} is not finite")]
     NotFinite { vertex: usize },
+}
+
+/// Part of a scene that may be of a material of its own.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Part {
+    /// The mesh itself: skin, leaf.
+    #[default]
+    Body,
+    /// The head's garment.
+    Garment,
+    /// The head's hair.
+    Hair,
+    /// Its brows.
+    Brows,
+    /// A patch of the chart beside the mesh, in the chart's order.
+    Patch(u16),
+    /// What holds the chart.
+    Card,
+    /// The ground beneath the mesh.
+    Ground,
+}
+
+impl Part {
+    /// True if it scatters light evenly (Lambert), whatever the surface of the body: cloth, hair, cardboard.
+    pub fn is_matte(self) -> bool {
+        self != Self::Body
+    }
+
+    /// True if it is of the mesh, not of what stands about it.
+    pub fn is_subject(self) -> bool {
+        !matches!(self, Self::Patch(_) | Self::Card | Self::Ground)
+    }
 }
 
 /// A box around a mesh, edges along the axes.
@@ -44,7 +77,10 @@ pub struct Mesh {
     positions: Vec<Vec3>,
     normals: Vec<Vec3>,
     triangles: Vec<[u32; 3]>,
-    garment: usize,
+    /// Of each triangle; empty where all are of the body.
+    parts: Vec<Part>,
+    /// Number of vertices that are to be seen whole, the first ones, and the least height of those.
+    framed: (usize, f32),
     bounds: Bounds,
 }
 
@@ -77,8 +113,8 @@ impl Mesh {
         }
         let normals = normals.into_iter().map(unit).collect();
         let bounds = bounds(&positions, &triangles);
-        let garment = triangles.len();
-        Ok(Self { positions, normals, triangles, garment, bounds })
+        let framed = (positions.len(), f32::NEG_INFINITY);
+        Ok(Self { positions, normals, triangles, parts: Vec::new(), framed, bounds })
     }
 
     /// Takes vertices and triangles; each vertex's normal is the mean of its triangles' by area and angle at the vertex.
@@ -106,15 +142,59 @@ impl Mesh {
         &self.triangles
     }
 
-    /// The mesh with its triangles from this index on a garment: a part that may be of another material.
+    /// The mesh with a part for each triangle, in their order; triangles without one are of the body.
     #[must_use]
-    pub fn with_garment(self, first: usize) -> Self {
-        Self { garment: first, ..self }
+    pub fn with_parts(self, parts: Vec<Part>) -> Self {
+        Self { parts, ..self }
     }
 
-    /// True if a triangle is of the garment.
-    pub fn is_garment(&self, triangle: u32) -> bool {
-        triangle as usize >= self.garment
+    /// The part that each triangle is of; empty where all are of the body.
+    pub fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+
+    /// The part that a triangle is of.
+    pub fn part(&self, triangle: u32) -> Part {
+        self.parts.get(triangle as usize).copied().unwrap_or_default()
+    }
+
+    /// The mesh of which pictures show everything above a height, and what is below as far as it comes.
+    #[must_use]
+    pub fn framed_above(self, height: f32) -> Self {
+        Self { framed: (self.framed.0, height), ..self }
+    }
+
+    /// The vertices that a picture of the whole shows.
+    pub fn framed(&self) -> impl ParallelIterator<Item = &Vec3> {
+        let (count, least) = self.framed;
+        self.positions[..count].par_iter().with_min_len(4096).filter(move |p| p.y >= least)
+    }
+
+    /// The mesh with parts of the body by the middles of its triangles.
+    #[cfg(feature = "data")]
+    pub(crate) fn relabeled(self, part_at: impl Fn(Vec3) -> Part) -> Self {
+        let own = (0..self.triangles.len() as u32).map(|triangle| match self.part(triangle) {
+            Part::Body => {
+                let corners = self.triangles[triangle as usize].map(|v| self.positions[v as usize]);
+                part_at(corners.iter().sum::<Vec3>() / 3.0)
+            }
+            other => other,
+        });
+        let parts = own.collect();
+        Self { parts, ..self }
+    }
+
+    /// The mesh with others about it, which its bounds leave out; the first `framed` of their vertices are to be seen whole.
+    pub(crate) fn among(self, others: Self, framed: usize) -> Self {
+        let first = self.positions.len() as u32;
+        let mut all = self;
+        all.parts.resize(all.triangles.len(), Part::Body);
+        all.parts.extend(others.parts);
+        all.positions.extend(others.positions);
+        all.normals.extend(others.normals);
+        all.triangles.extend(others.triangles.iter().map(|corners| corners.map(|v| v + first)));
+        all.framed.0 += framed;
+        all
     }
 
     /// The box around all vertices that a triangle uses.

@@ -6,6 +6,7 @@
 pub mod ask;
 pub mod compare;
 pub mod correction;
+pub mod displacement;
 pub mod lights;
 pub mod loci;
 pub mod metamers;
@@ -18,6 +19,7 @@ pub use compare::DifferenceError;
 pub use correction::{
     CorrectionReport, CorrectionReportQuery, ErrorSummary, StimulusCheck, TwoLightPoint, TwoLightQuery,
 };
+pub use displacement::{Displacements, LocusDeviationsQuery};
 pub use lights::{Consistency, ConsistencyError, ConsistencyQuery, Rendition, RenditionQuery};
 pub use loci::{
     CctQuery, Locus, LocusPoint, LocusQuery, LocusRulesQuery, MonochromaticQuery, NearestBlackBodyQuery,

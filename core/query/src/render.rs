@@ -6,25 +6,29 @@
 pub mod difference;
 pub mod picture;
 pub mod returned;
+mod sky;
 
 use super::ask::{Ask, Query, Shared};
 use chromascope_color::accuracy::RelTolerance;
 use chromascope_color::camera::RenderingError;
-use chromascope_color::camera::rendering::white_divisors;
+use chromascope_color::camera::rendering::{raw, under_light, white_divisors};
 use chromascope_color::spectral::{GridSpectrum, Sensor};
-use chromascope_mesh::{Mesh, ShadowTree, fern, head, shapes};
+use chromascope_mesh::stage::Stage;
+use chromascope_mesh::{Mesh, Part, ShadowTree, fern, head, shapes};
 use chromascope_render::reflectance::leaf::{LeafModel, ScatteredShare};
-use chromascope_render::reflectance::{Normalization, Specular, Surface, wavelength_power};
-use chromascope_render::render::quality::SkyFineness;
-use chromascope_render::render::sky::SkyView;
+use chromascope_render::reflectance::power::{LAMBDA_0_NM, factor};
+use chromascope_render::reflectance::{Geometry, Normalization, Specular, Surface, wavelength_power};
 use chromascope_render::render::{
-    CameraImage, Demand, GeometryImage, Plan, Quality, RasterSize, Reach, ShadingImage, Shadows, Sky, SkyImage,
-    SkyReflectance, SkyVisibility, SpectralWeights, Transmitted, VertexImage, Visibility,
+    CameraImage, Demand, GeometryImage, MattePart, Plan, Quality, RasterSize, Reach, ShadingImage, Shadows, Sky,
+    SpectralWeights, Transmitted, VertexImage, Visibility,
 };
 use chromascope_render::scene::roughness::{VertexRoughness, vertex_roughness};
 use chromascope_render::scene::{Lighting, Viewpoint};
 use chromascope_text::choices;
+use picture::LEAST_FACING;
 use std::sync::Arc;
+
+pub use sky::{BounceQuery, GroundViewQuery, SkyImageQuery, SkyReflectanceQuery, SkyVisibilityQuery};
 
 /// A mesh.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -41,6 +45,8 @@ pub enum MeshQuery {
     Plane,
     /// The user's own.
     Own(Shared<Mesh>),
+    /// A mesh with what stands about it.
+    Staged(Box<MeshQuery>, Stage),
 }
 
 impl Query for MeshQuery {
@@ -53,7 +59,7 @@ impl Query for MeshQuery {
         size_of_val(mesh.positions()) + size_of_val(mesh.normals()) + size_of_val(mesh.triangles())
     }
 
-    fn answer(&self, _: &impl Ask) -> Self::Answer {
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
         match self {
             Self::Head(triangles) => Shared::new(head::head(*triangles)),
             Self::ClothedHead(triangles) => Shared::new(head::clothed(*triangles)),
@@ -61,6 +67,18 @@ impl Query for MeshQuery {
             Self::Sphere(triangles) => Shared::new(shapes::sphere(*triangles)),
             Self::Plane => Shared::new(shapes::plane(2)),
             Self::Own(mesh) => mesh.clone(),
+            Self::Staged(mesh, stage) => Shared::new(stage.about(&ask.ask(&**mesh))),
+        }
+    }
+}
+
+impl MeshQuery {
+    /// True if nothing sees the inner side of its surface.
+    fn is_closed(&self) -> bool {
+        match self {
+            Self::Head(_) | Self::ClothedHead(_) | Self::Sphere(_) => true,
+            Self::Fern(_) | Self::Plane | Self::Own(_) => false,
+            Self::Staged(mesh, _) => mesh.is_closed(),
         }
     }
 }
@@ -141,97 +159,6 @@ impl Query for GeometryQuery {
     }
 }
 
-/// Cells of the sky that each vertex sees. None if stopped.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct SkyVisibilityQuery {
-    /// The mesh.
-    pub mesh: MeshQuery,
-    /// True if the mesh hides the sky from itself.
-    pub shadows: bool,
-    /// True if the other side of its surface matters: light passes through it.
-    pub through: bool,
-}
-
-impl Query for SkyVisibilityQuery {
-    type Answer = Option<SkyVisibility>;
-    const NAME: &'static str = "sky visibility";
-    const CAPACITY: usize = 3;
-
-    fn bytes(sky: &Self::Answer) -> usize {
-        sky.as_ref().map_or(0, |sky| size_of_val(sky.cells()))
-    }
-
-    fn answer(&self, ask: &impl Ask) -> Self::Answer {
-        let mesh = ask.ask(&self.mesh);
-        if !self.shadows {
-            return Some(SkyVisibility::open(&mesh));
-        }
-        let is_closed = matches!(self.mesh, MeshQuery::Head(_) | MeshQuery::ClothedHead(_) | MeshQuery::Sphere(_));
-        let tree = ask.ask(&ShadowTreeQuery(self.mesh.clone()));
-        SkyVisibility::new(&mesh, &tree, self.through || !is_closed, &ask.stop())
-    }
-}
-
-/// Visible shares of the sky at each sample that sees the mesh. None if stopped.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct SkyImageQuery {
-    /// Visibility.
-    pub visibility: VisibilityQuery,
-    /// The surface.
-    pub surface: Surface,
-    /// Normalization of Eq 1.
-    pub reading: Normalization,
-    /// Exactness.
-    pub fineness: SkyFineness,
-    /// True if light shines through from behind.
-    pub through: bool,
-    /// True if the mesh hides the sky from itself.
-    pub shadows: bool,
-}
-
-impl Query for SkyImageQuery {
-    type Answer = Option<Arc<SkyImage>>;
-    const NAME: &'static str = "sky";
-    const CAPACITY: usize = 6;
-
-    fn bytes(image: &Self::Answer) -> usize {
-        image.as_ref().map_or(0, |image| size_of_val(image.samples()))
-    }
-
-    fn answer(&self, ask: &impl Ask) -> Self::Answer {
-        let Self { surface, reading, fineness, through, shadows, .. } = self;
-        let sky =
-            ask.ask(&SkyVisibilityQuery { mesh: self.visibility.mesh.clone(), shadows: *shadows, through: *through });
-        let (mesh, visibility) = (ask.ask(&self.visibility.mesh), ask.ask(&self.visibility));
-        let view = SkyView { surface, reading: *reading, fineness: *fineness, through: *through };
-        SkyImage::new(&mesh, (*visibility).as_ref()?, (*sky).as_ref()?, view, &ask.stop()).map(Arc::new)
-    }
-}
-
-/// Hemispherical-directional reflectance of a surface over angle and wavelength.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct SkyReflectanceQuery {
-    /// The surface.
-    pub surface: Surface,
-    /// Normalization of Eq 1.
-    pub reading: Normalization,
-}
-
-impl Query for SkyReflectanceQuery {
-    type Answer = SkyReflectance;
-    const NAME: &'static str = "sky reflectance";
-    const ALWAYS_COMPLETE: bool = true;
-    const CAPACITY: usize = 16;
-
-    fn bytes(reflectance: &Self::Answer) -> usize {
-        reflectance.bytes()
-    }
-
-    fn answer(&self, _: &impl Ask) -> Self::Answer {
-        SkyReflectance::new(self.surface, self.reading)
-    }
-}
-
 /// Roughness of a mesh at each of its vertices.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct MeshRoughnessQuery(pub MeshQuery);
@@ -282,6 +209,8 @@ pub struct ShadingQuery {
     pub sky: Option<u64>,
     /// True if the mesh hides no part of the sky: before it is known which.
     pub open_sky: bool,
+    /// True if the ground sends light up.
+    pub bounce: bool,
 }
 
 impl Query for ShadingQuery {
@@ -294,7 +223,11 @@ impl Query for ShadingQuery {
     }
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
-        let shading = self.lit(ask)?;
+        let mut shading = self.lit(ask)?;
+        if self.bounce {
+            let bounce = ask.ask(&BounceQuery(self.geometry.clone()));
+            shading = shading.over(Arc::clone((*bounce).as_ref()?));
+        }
         let Some(share) = self.sky.filter(|_| self.geometry.reach.everywhere) else { return Some(shading) };
         let image = ask.ask(&self.sky_image());
         let image = Arc::clone((*image).as_ref()?);
@@ -355,17 +288,24 @@ impl Query for SpectralWeightsQuery {
 }
 
 impl SpectralWeightsQuery {
-    /// The measure that a shaded mesh takes: where lobes are untinted, with the weights of a white for them.
-    pub fn in_picture(&self, shading: &ShadingImage, ask: &impl Ask) -> Arc<<Self as Query>::Answer> {
+    /// The measure that a shaded mesh takes, over a ground of some reflectance: where lobes are untinted, with the weights of a white
+    /// for them.
+    pub fn in_picture(
+        &self,
+        shading: &ShadingImage,
+        ground: Option<&Shared<GridSpectrum>>,
+        ask: &impl Ask,
+    ) -> Arc<<Self as Query>::Answer> {
         let surface = shading.surface();
         let sky = shading.sky().map(|_| *surface);
         let lobes = sky.is_some() || !shading.coherent_samples().is_empty();
         let untinted = surface.specular() == Specular::Fresnel && lobes;
         let through = shading.geometry().reach().through.then_some(*surface);
-        if !untinted && through.is_none() && sky.is_none() {
+        let ground = ground.filter(|_| shading.bounce().is_some()).map(|ground| (*surface, ground.clone()));
+        if !untinted && through.is_none() && sky.is_none() && ground.is_none() {
             return ask.ask(self);
         }
-        ask.ask(&PictureWeightsQuery { own: self.clone(), untinted, through, sky })
+        ask.ask(&PictureWeightsQuery { own: self.clone(), untinted, through, sky, ground })
     }
 }
 
@@ -379,6 +319,8 @@ struct PictureWeightsQuery {
     through: Option<Surface>,
     /// The surface, under a sky.
     sky: Option<Surface>,
+    /// The surface over a ground, and the ground's reflectance.
+    ground: Option<(Surface, Shared<GridSpectrum>)>,
 }
 
 impl Query for PictureWeightsQuery {
@@ -405,8 +347,19 @@ impl Query for PictureWeightsQuery {
             let reflectance = ask.ask(&SkyReflectanceQuery { surface, reading: self.own.reading });
             own.sky = Some(Arc::new(reflectance.signals(&own)));
         }
+        if let Some((surface, ground)) = &self.ground {
+            let reflectance = Shared::new(product(&self.own.reflectance, ground));
+            let twice = of(&SpectralWeightsQuery { reflectance, ..self.own.clone() })?;
+            let reflectance = ask.ask(&SkyReflectanceQuery { surface: *surface, reading: self.own.reading });
+            own.bounce = Some(Arc::new(reflectance.signals(&twice)));
+        }
         Ok(own)
     }
+}
+
+fn product(a: &GridSpectrum, b: &GridSpectrum) -> GridSpectrum {
+    let mut values = a.values().iter().zip(b.values());
+    GridSpectrum::from_fn(|_| values.next().map_or(0.0, |(a, b)| a * b))
 }
 
 /// Share of light that a leaf's surface scatters ([`ScatteredShare`]).
@@ -450,8 +403,8 @@ pub struct CameraImageQuery {
     pub shading: ShadingQuery,
     /// The camera under the light.
     pub measure: SpectralWeightsQuery,
-    /// Reflectance of the mesh's garment; none for that of the rest.
-    pub garment: Option<Shared<GridSpectrum>>,
+    /// Reflectances of parts of the mesh, ascending by part; others have that of the body.
+    pub parts: Parts,
 }
 
 impl Query for CameraImageQuery {
@@ -468,25 +421,53 @@ impl Query for CameraImageQuery {
         let shading = ask.ask(&self.shading);
         let Some(shading) = (*shading).as_ref() else { return Ok(None) };
         let image = |of: &Self, part: Option<&[bool]>| {
-            let measure = of.measure.in_picture(shading, ask);
+            let measure = of.measure.in_picture(shading, of.ground(), ask);
             let measure = (*measure).as_ref().map_err(|&e| e)?;
             let plan = of.plan(shading, measure, ask)?;
             Ok(CameraImage::of_part(shading, measure, plan, part, &ask.stop()))
         };
-        let Some(garment) = &self.garment else { return image(self, None) };
-        let visibility = &self.shading.geometry.visibility;
-        let (mesh, visibility) = (ask.ask(&visibility.mesh), ask.ask(visibility));
-        let Some(visibility) = (*visibility).as_ref() else { return Ok(None) };
-        let samples = shading.geometry().samples().iter();
-        let bare: Vec<bool> = samples.map(|&at| !mesh.is_garment(visibility.hits()[at as usize].triangle)).collect();
-        let worn: Vec<bool> = bare.iter().map(|bare| !bare).collect();
-        let measure = SpectralWeightsQuery { reflectance: garment.clone(), ..self.measure.clone() };
-        let garment = image(&Self { measure, ..self.clone() }, Some(&worn))?;
-        Ok(image(self, Some(&bare))?.zip(garment).map(|(skin, garment)| skin.with(&garment, &worn)))
+        let seen = shading.geometry().placed().parts();
+        let own: Vec<Part> = self.parts.iter().map(|(part, _)| *part).collect();
+        if own.is_empty() || seen.is_empty() {
+            return image(self, None);
+        }
+        let body: Vec<bool> = seen.iter().map(|part| own.binary_search(part).is_err()).collect();
+        let Some(all) = image(self, Some(&body))? else { return Ok(None) };
+        Ok(Some(all.with_matte(shading, &self.matte()?)))
     }
 }
 
+/// Reflectances of parts of a mesh, ascending by part.
+pub type Parts = Vec<(Part, Shared<GridSpectrum>)>;
+
 impl CameraImageQuery {
+    /// Reflectance of the ground, if there is one.
+    pub fn ground(&self) -> Option<&Shared<GridSpectrum>> {
+        self.parts.iter().find(|(part, _)| *part == Part::Ground).map(|(_, grid)| grid)
+    }
+
+    /// The signals of matte parts. A white of them is as bright as one of the body's surface at 550 nm: side by
+    /// side they compare as their reflectances do.
+    ///
+    /// # Errors
+    /// [`RenderingError`] where the sensor sees nothing of the light.
+    fn matte(&self) -> Result<Vec<MattePart>, RenderingError> {
+        let SpectralWeightsQuery { sensor, light, reading, .. } = &self.measure;
+        let radius = self.shading.geometry.lighting.angular_radius();
+        let white = factor(&self.shading.surface, &Geometry::from_angles(0.0, 0.0, 0.0), LAMBDA_0_NM, *reading, radius);
+        let is_reflectance = wavelength_power(*reading) != 0;
+        let scale = if is_reflectance { white.max(LEAST_FACING) } else { white } / white_divisors(sensor, light)?;
+        let weights = under_light(sensor, light);
+        let signals = |grid: &GridSpectrum| (scale * raw(&weights, grid.values())).to_array();
+        let ground = self.ground();
+        let part = |(part, grid): &(Part, Shared<GridSpectrum>)| MattePart {
+            part: *part,
+            facing: signals(grid),
+            from_ground: ground.map_or([0.0; 3], |ground| signals(&product(grid, ground))),
+        };
+        Ok(self.parts.iter().map(part).collect())
+    }
+
     /// The plan that the image is made by, where its shading and measure are known.
     ///
     /// # Errors

@@ -13,6 +13,7 @@
 pub mod coherent;
 pub mod develop;
 pub mod diffuse;
+pub mod exaggerate;
 pub mod geometry;
 pub mod measure;
 pub mod plan;
@@ -32,7 +33,7 @@ pub use measure::{LAMBDA_0_NM, SpectralWeights, Transmitted};
 pub use plan::{Demand, IntegrationMethod, Plan};
 pub use quality::{Quality, QualityLevel};
 pub use shading::{ShadingCounts, ShadingImage};
-pub use signals::CameraImage;
+pub use signals::{CameraImage, MattePart};
 pub use sky::{Sky, SkyImage, SkyReflectance, SkyVisibility};
 pub use spectral_image::{BandWeights, ImageSensor, SampleQuantity, SpectralImageError, SpectralImageSignals};
 pub use stop::Stop;

@@ -101,7 +101,8 @@ fn dress(ui: &mut Ui, paper: &mut Paper, (kind, facts): (PaneKind, Option<PageFa
         "legend" => facts.is_some_and(|facts| facts.has_legend),
         "axis_titles" => facts.is_some_and(|facts| facts.has_titles),
         "ranges" => is_diagram || context.view.zoomed.contains_key(&kind),
-        "numbers" | "strip" => is_diagram,
+        "numbers" | "strip" | "patches" | "loci" => is_diagram,
+        "x_range" | "y_range" => facts.is_some_and(|facts| facts.has_plot),
         _ => true,
     };
     for setting in Paper::ALL.iter().filter(|setting| setting.group == LOOK && has(setting.key)) {
@@ -113,9 +114,32 @@ fn dress(ui: &mut Ui, paper: &mut Paper, (kind, facts): (PaneKind, Option<PageFa
                     set(paper, on);
                 }
             }
+            Value::Pair(pair) => ends(ui, setting, &pair[..], paper, context),
             _ => {}
         }
     }
+}
+
+/// Ends of an axis; equal ones for the figure's own.
+fn ends(
+    ui: &mut Ui,
+    setting: &Setting<Paper>,
+    pair: &[(&str, &str, Number<Paper>)],
+    paper: &mut Paper,
+    context: &PaneContext<'_>,
+) {
+    row(ui, setting.name, context, |ui| {
+        for (name, hint, number) in pair {
+            let mut value = (number.get)(paper);
+            let [low, high] = number.slider;
+            let field =
+                DragValue::new(&mut value).range(low..=high).speed(0.01).max_decimals(4).prefix(format!("{name} "));
+            let hint = format!("{}: {hint}. {}", setting.name, setting.help);
+            if ui.add(field.update_while_editing(false)).on_hover_text(hint).changed() {
+                (number.set)(paper, value);
+            }
+        }
+    });
 }
 
 fn buttons(ui: &mut Ui, kind: PaneKind, context: &mut PaneContext<'_>) {

@@ -12,7 +12,7 @@ use super::typeset::{self, Typeset};
 use crate::help::formula::Formula;
 use crate::help::markdown::{self, Block, Inline, Style};
 use crate::panes::widgets;
-use crate::theme::{HEADING, MONO, TEXT, Theme, UNIT};
+use crate::theme::{self, HEADING, MONO, TEXT, Theme, UNIT};
 
 const FORMULA: f32 = 16.0;
 const INDENT: f32 = 5.0 * UNIT;
@@ -184,9 +184,9 @@ impl Flow {
                     for (index, word) in text.split(' ').enumerate() {
                         after_space |= index > 0;
                         if !word.is_empty() {
-                            let mut piece = word_piece(ui, word, size, *style, ink);
+                            let style = Style { strong: style.strong || strong, ..*style };
+                            let mut piece = word_piece(ui, word, size, style, ink);
                             (piece.after_space, piece.link) = (after_space, link.clone());
-                            piece.style.strong |= strong;
                             flow.pieces.push(piece);
                             after_space = false;
                         }
@@ -316,11 +316,6 @@ impl Flow {
             What::Word(galley) => {
                 let top = place - Vec2::new(0.0, typeset::baseline(galley));
                 ui.painter().galley_with_override_text_color(top, galley.clone(), color);
-                if piece.style.strong {
-                    // The bundled fonts have no bold face: drawn twice, one pixel apart.
-                    let pixel = 1.0 / ui.ctx().pixels_per_point();
-                    ui.painter().galley_with_override_text_color(top + Vec2::new(pixel, 0.0), galley.clone(), color);
-                }
             }
             What::Formula(set) => set.paint(ui.painter(), place, color),
         }
@@ -332,13 +327,17 @@ impl Flow {
 }
 
 fn word_piece(ui: &Ui, word: &str, size: f32, style: Style, ink: &Ink<'_>) -> Piece {
-    let font = if style.code { FontId::monospace(CODE * size) } else { FontId::proportional(size) };
+    let font = match style {
+        Style { code: true, .. } => FontId::monospace(CODE * size),
+        Style { strong: true, .. } => FontId::new(size, theme::bold()),
+        _ => FontId::proportional(size),
+    };
     let format = TextFormat { italics: style.emphasis, font_id: font, ..TextFormat::default() };
     let mut job = LayoutJob::single_section(word.to_owned(), format);
     job.wrap.max_width = f32::INFINITY;
     let galley = ui.painter().layout_job(job);
     let folded = if ink.terms.is_empty() { String::new() } else { word.to_lowercase() };
-    let width = galley.size().x + if style.strong { 0.6 } else { 0.0 };
+    let width = galley.size().x;
     let ascent = typeset::baseline(&galley);
     Piece {
         width,

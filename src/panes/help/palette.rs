@@ -13,13 +13,15 @@ use crate::document::start::Start;
 use crate::document::{LOCUS_RANGE_K, Light, SetKind, WhiteBalanceChoice};
 use crate::export::FigureForm;
 use crate::export::profile::CorrectionForm;
+use crate::figures::swatches;
 use crate::help;
 use crate::panes::PaneContext;
 use crate::panes::widgets;
 use crate::panes::widgets::pick_list::{Line, PickList};
 use crate::plot_item::{PlotItem, SensorId};
 use crate::view::import::ImportItem;
-use crate::workspaces::{PaneKind, Workspace};
+use crate::view::tour::Tour;
+use crate::workspaces::{PaneKind, Side, Workspace};
 
 /// Group of places in the help, which stands last.
 const IN_HELP: &str = "In the help";
@@ -66,13 +68,14 @@ pub(super) fn show(ui: &Ui, history: &History, context: &mut PaneContext<'_>) {
     let theme = context.theme;
     let window = widgets::window("Find anything", "palette", (Align2::CENTER_TOP, Vec2::new(0.0, 84.0)));
     let size = Vec2::new(520.0_f32.min(screen.width() - 40.0), HEIGHT + 40.0);
-    window.fixed_size(size).show(ui.ctx(), |ui| {
+    let shown = window.fixed_size(size).show(ui.ctx(), |ui| {
         let list = PickList {
             id: Id::unique("palette search"),
             name: "Find anything",
             hint: "A setting, a camera, a light, a patch, a temperature…",
             height: HEIGHT.min(screen.height() - 180.0),
             from_set: false,
+            is_short: false,
         };
         let mut commands = Vec::new();
         let lines = |text: &str| {
@@ -84,9 +87,10 @@ pub(super) fn show(ui: &Ui, history: &History, context: &mut PaneContext<'_>) {
         let index = list.show(ui, &mut state, lines, &theme);
         chosen = index.and_then(|index| commands.swap_remove(index));
     });
+    let is_left = shown.is_some_and(|shown| widgets::alone(ui.ctx(), &shown.response));
     match chosen {
         Some(command) => context.push(command),
-        None => context.view.palette = Some(state),
+        None => context.view.palette = Some(state).filter(|_| !is_left),
     }
 }
 
@@ -165,12 +169,18 @@ fn commands(history: &History, context: &PaneContext<'_>) -> Vec<Found> {
     let others = [
         ("Open a folder", Command::OpenFolder),
         ("Reset layout", Command::ResetLayout),
-        ("Tour: the paper in five steps", Command::Tour(TourMove::Begin)),
+        ("Fold the lower view away, or show it", Command::Toggle(Side::Lower)),
+        (Tour::Program.label(), Command::Tour(TourMove::Begin(Tour::Program))),
+        (Tour::Paper.label(), Command::Tour(TourMove::Begin(Tour::Paper))),
         ("About Chromascope", Command::ToggleAbout),
         ("Copy Chromaticity as card", Command::CopyCard(PaneKind::CHROMATICITY)),
     ];
     for (words, command) in others {
         found.push(Found::new("Commands", words, command));
+    }
+    if let Some((words, item)) = swatches::worst(&context.scene) {
+        found
+            .push(Found::new("Commands", words, Command::Select(item)).note("select").also("patch largest difference"));
     }
     for start in Start::ALL {
         found.push(Found::new("Commands", format!("Start: {}", start.label()), Action::Start(start)));
@@ -199,8 +209,9 @@ fn panes(context: &PaneContext<'_>) -> Vec<Found> {
         found.push(Found::new("Workspaces and panes", words, command).note(key).on(workspace == now));
     }
     for pane in context.panes {
-        let on = context.view.saved.layout.shows(now, pane.kind);
-        let words = format!("Pane {}", pane.title);
+        let on = context.view.is_shown(pane.kind);
+        let words =
+            if pane.tab == pane.title { pane.title.to_owned() } else { format!("{}: {}", pane.tab, pane.title) };
         found.push(Found::new("Workspaces and panes", words, Command::GoTo(pane.kind)).on(on));
     }
     found
@@ -218,8 +229,8 @@ fn saves(context: &PaneContext<'_>) -> Vec<Found> {
         }
     }
     for (on, words) in REPORTS {
-        let words = format!("Report on the paper: {}", words.to_lowercase());
-        found.push(Found::new("Save", words, Command::Report(on)).also("figures claims export pdf html"));
+        let words = format!("Report: {}{}", words[..1].to_lowercase(), &words[1..]);
+        found.push(Found::new("Save", words, Command::Report(on)).also("figures claims ranking export pdf html page"));
     }
     for form in context.view.correction.camera(&context.scene).map_or(&[][..], |_| &CorrectionForm::ALL) {
         let (words, hint) = form.words();

@@ -4,18 +4,11 @@ use egui::Ui;
 
 use super::numbers::{self, Point, letter, point_of, points_of};
 use super::{label_of, reference_id};
-use crate::figures::chromaticity::id;
-use crate::figures::render::headline::{Detail, Measure};
-use crate::figures::render::{NO_VALUE, facts, index_of, pixel_of};
 use crate::format::fixed;
 use crate::panes::context::PaneContext;
-use crate::panes::widgets::lines::key_and_label;
-use crate::panes::widgets::table::show_pairs;
 use crate::panes::widgets::{self, Icon, icon_button};
 use crate::plot_item::PlotItem;
-use crate::render_service::pixel::PixelShows;
 use crate::scene::Scene;
-use crate::theme::UNIT;
 use crate::view::PixelPlace;
 use crate::workspaces::PaneKind;
 
@@ -86,34 +79,6 @@ fn name(scene: &Scene<'_>, thing: &PlotItem) -> String {
 }
 
 pub(super) fn pinned_pixel<'a>(context: &'a PaneContext<'_>) -> Option<&'a PixelPlace> {
-    let (saved, render) = (&context.view.saved, &context.view.render);
-    render.pinned.as_ref().filter(|_| saved.layout.shows(saved.workspace, PaneKind::RENDER))
-}
-
-pub(super) fn pixel(ui: &mut Ui, context: &PaneContext<'_>) {
-    let Some((pinned, shot)) = pinned_pixel(context).zip(context.render_service.frame()) else { return };
-    ui.add_space(UNIT);
-    ui.strong("Pinned pixel");
-    let measure = Measure::of_frame(shot);
-    if let Some(reading) = pixel_of(&context.scene, shot, pinned) {
-        widgets::pixel::spectrum(ui, "spectrum in inspector", shot, reading.at, context);
-    }
-    for source in shot.sources.iter() {
-        let place = PixelPlace { source: id(source), ..pinned.clone() };
-        let Some(reading) = pixel_of(&context.scene, shot, &place) else { continue };
-        key_and_label(ui, source, &context.theme);
-        let made = shot.made().zip(index_of(shot, &place.source));
-        if let Some(difference) = made.and_then(|(made, at)| made.differences.get(at)?.as_ref()) {
-            widgets::note(ui, measure.words(difference, Detail::Quantiles));
-        }
-        match reading.shows {
-            PixelShows::Nothing => widgets::note(ui, "Beside the mesh."),
-            PixelShows::NoValue => widgets::note(ui, NO_VALUE),
-            PixelShows::Unlit => widgets::note(ui, "No light reaches it."),
-            PixelShows::Lit(lit) => {
-                let id = format!("pinned pixel {}", source.name);
-                show_pairs(ui, PaneKind::INSPECTOR, &id, &facts(&lit, measure), context);
-            }
-        }
-    }
+    let render = &context.view.render;
+    render.pinned.as_ref().filter(|_| context.view.is_shown(PaneKind::RENDER))
 }

@@ -16,6 +16,7 @@ use crate::panes::context::PaneContext;
 use crate::panes::widgets::{self, WHAT_YOU_SEE, focus_rim, lines};
 use crate::scene::Scene;
 use crate::theme::{ROW, Theme, UNIT};
+use crate::view::tour::Tour;
 
 const CARD: Vec2 = Vec2::new(200.0, 92.0);
 const KEY: f32 = 26.0;
@@ -63,8 +64,11 @@ fn starts(ui: &mut Ui, context: &mut PaneContext<'_>) {
         }
     });
     ui.horizontal(|ui| {
-        if ui.link("Tour: the paper in five steps").clicked() {
-            context.push(Command::Tour(TourMove::Begin));
+        ui.spacing_mut().item_spacing.x = 4.0 * UNIT;
+        for tour in Tour::ALL {
+            if ui.link(tour.label()).on_hover_text(tour.words().why).clicked() {
+                context.push(Command::Tour(TourMove::Begin(tour)));
+            }
         }
     });
     ui.separator();

@@ -74,6 +74,11 @@ fn picture(
                 None => {
                     let of = PictureQuery { name: &name, version: shot.serial, rect, clip, sharp };
                     of.draw(painter, || ([made.width, made.height], &made.rgba));
+                    if let Some(note) = shot.query.exaggeration().note().filter(|_| !source.is_reference) {
+                        let font = FontId::proportional(crate::theme::SMALL);
+                        let at = rect.intersect(clip).right_top() + Vec2::new(-6.0, 4.0);
+                        painter.text(at, egui::Align2::RIGHT_TOP, note, font, context.theme.on_surround);
+                    }
                 }
                 Some(maps::Scale { end, .. }) => {
                     let name = format!("{name}, difference");

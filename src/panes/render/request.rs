@@ -35,7 +35,7 @@ const TABLES_REACH: f64 = 1e-9;
 
 /// Requests the visible pictures. Returns the reason if there are none.
 pub(super) fn ask(ui: &Ui, layout: &PictureLayout, context: &mut PaneContext<'_>) -> Result<(), String> {
-    let none = || "Tick a camera in the Library.".to_owned();
+    let none = || "Add a camera at the left.".to_owned();
     let stages = if let MeshChoice::Image(path) = &context.scene.document.render.mesh {
         let image = image(path, context)?;
         if layout.cells.is_empty() {
@@ -169,7 +169,7 @@ impl Wish<'_, '_> {
 
     fn query(&self, finish: Finish) -> Result<PicturesQuery, String> {
         let look = &self.context.view.saved.render;
-        let orbit = look.orbit.unwrap_or_else(|| Orbit::of(&self.context.scene.document.render.mesh));
+        let orbit = look.orbit.unwrap_or_else(|| Orbit::of(&self.context.scene.document.render));
         let [width, height] = self.layout.pixels;
         let viewpoint = orbit.viewpoint(f64::from(width) / f64::from(height.max(1))).ok_or("No such view.")?;
         let surround = self.context.theme.colors.surround.color();

@@ -6,7 +6,7 @@ use super::pick_list::Line;
 use crate::action::{Action, CompareAction, SceneAction};
 use crate::catalog::Entry;
 use crate::document::correction::CorrectionChoice;
-use crate::document::{Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
+use crate::document::{Exaggeration, Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
 use crate::scene::Scene;
 
 /// A line with its action; a heading has none.
@@ -16,13 +16,15 @@ pub type Alternative = (Line, Option<Action>);
 pub type Listing = fn(&Scene<'_>) -> Vec<Alternative>;
 
 /// All conditions but the temperature, by name.
-pub const ALL: [(&str, Listing); 6] = [
+pub const ALL: [(&str, Listing); 8] = [
     ("Reference", references),
     ("Light", lights),
     ("Patches", patches),
     ("White balance", whites),
+    ("Filter", filters),
     ("Color transform", transforms),
     ("Difference", differences),
+    ("Exaggerate", exaggerations),
 ];
 
 fn heading(words: &str) -> Alternative {
@@ -49,14 +51,13 @@ pub fn references(scene: &Scene<'_>) -> Vec<Alternative> {
 pub fn lights(scene: &Scene<'_>) -> Vec<Alternative> {
     let set = |line: Line, light: Light| offer(line, scene.document.light == light, SceneAction::SetLight(light));
     let black_body = Line { also: "Planckian".to_owned(), ..Line::new("Blackbody at the temperature", false) };
-    let mut all = Vec::new();
-    if !scene.document.filters.is_empty() {
-        all.push(named("Remove filters", false, SceneAction::ClearFilters));
-    }
-    all.push(heading("At the temperature"));
-    all.push(set(black_body, Light::BlackBody));
-    all.push(set(Line::new("Daylight at the temperature, 4000–20000 K", false), Light::Daylight));
-    all.push(heading("Illuminants"));
+    let daylight = Line::new("Daylight at the temperature, 4000–20000 K", false);
+    let mut all = vec![
+        heading("At the temperature"),
+        set(black_body, Light::BlackBody),
+        set(daylight, Light::Daylight),
+        heading("Illuminants"),
+    ];
     let illuminants = scene.entries(SetKind::Illuminant);
     all.extend(illuminants.map(|entry| set(Line::of_set(&entry, false), Light::Set(entry.name))));
     all
@@ -98,6 +99,16 @@ pub fn whites(scene: &Scene<'_>) -> Vec<Alternative> {
     all
 }
 
+pub fn filters(scene: &Scene<'_>) -> Vec<Alternative> {
+    let used = &scene.document.filters;
+    let remove = (!used.is_empty()).then(|| named("Remove filters", false, SceneAction::ClearFilters));
+    let filters = scene.entries(SetKind::Filter).map(|entry| {
+        let on = used.contains(&entry.name);
+        offer(Line::of_set(&entry, on), on, SceneAction::SetFilter(entry.name, !on))
+    });
+    remove.into_iter().chain(filters).collect()
+}
+
 pub fn transforms(scene: &Scene<'_>) -> Vec<Alternative> {
     let (now, correction) = (&scene.document.transform, &scene.document.correction);
     let set = |words: String, to: TransformChoice| named(words, *now == to, SceneAction::SetTransform(to));
@@ -123,4 +134,12 @@ pub fn differences(scene: &Scene<'_>) -> Vec<Alternative> {
         offer(line, document.difference == metric, SceneAction::SetDifference(metric))
     });
     metrics.collect()
+}
+
+pub fn exaggerations(scene: &Scene<'_>) -> Vec<Alternative> {
+    let line = |to: Exaggeration| {
+        let line = Line { note: to.why().to_owned(), also: "magnify".to_owned(), ..Line::new(to.label(), false) };
+        offer(line, scene.document.exaggeration == to, SceneAction::SetExaggeration(to))
+    };
+    Exaggeration::ALL.map(line).into()
 }

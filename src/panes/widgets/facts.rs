@@ -59,7 +59,7 @@ pub fn range_words([first, last]: [f64; 2]) -> String {
 }
 
 /// The range that all curves of a set are within, and the first curve; parses the set.
-fn range(scene: &Scene<'_>, entry: &Entry) -> Option<([f64; 2], SpectralDistribution)> {
+pub fn range(scene: &Scene<'_>, entry: &Entry) -> Option<([f64; 2], SpectralDistribution)> {
     let union = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];
     match &entry.place {
         Place::BuiltIn { file, column } => {

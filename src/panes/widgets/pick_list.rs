@@ -1,9 +1,9 @@
-//! A list that is filtered as one types: search field, groups, one highlighted line, arrow keys, Enter.
+//! A list: groups, one highlighted line, arrow keys, Enter. A long one is filtered by what is typed, a short one goes to it.
 
 use egui::containers::menu::{MenuButton, MenuConfig};
 use egui::{
-    Align2, ComboBox, Id, Key, Modifiers, PopupCloseBehavior, Rect, Response, Role, ScrollArea, Sense, Stroke,
-    TextEdit, TextStyle, Ui, Vec2, WidgetInfo, WidgetText,
+    Align2, ComboBox, Event, EventFilter, Id, Key, Modifiers, PopupCloseBehavior, Rect, Response, Role, ScrollArea,
+    Sense, Stroke, TextEdit, TextStyle, Ui, Vec2, WidgetInfo, WidgetText,
 };
 
 use super::lines;
@@ -17,6 +17,10 @@ const GUTTER: f32 = 18.0;
 /// Largest share of a line that its note takes.
 const NOTE: f32 = 0.45;
 const PAGE: usize = 10;
+/// Up to this many alternatives have no field to filter them.
+const SHORT: usize = 10;
+/// Seconds within which letters belong to one word.
+const ONE_WORD: f64 = 1.0;
 /// Height of the list below a control before it scrolls.
 const DROPPED: f32 = 14.0 * ROW;
 const LEAST: f32 = 280.0;
@@ -74,6 +78,9 @@ pub struct PickList<'a> {
     pub height: f32,
     /// The line that is set is highlighted first, not the uppermost.
     pub from_set: bool,
+    /// True if all lines are seen at once: no field, and letters highlight the next line that begins with them, else one with
+    /// such a word.
+    pub is_short: bool,
 }
 
 impl PickList<'_> {
@@ -90,10 +97,8 @@ impl PickList<'_> {
         if !ui.memory(|memory| memory.has_focus(self.id)) {
             ui.memory_mut(|memory| memory.request_focus(self.id));
         }
-        // In a menu the field is higher than its text.
-        let field = TextEdit::singleline(&mut state.text).id(self.id).align(Align2::LEFT_CENTER);
-        let field = ui.add(field.hint_text(self.hint).desired_width(f32::INFINITY));
-        lines::labeled(&field, Role::TextInput, self.name);
+        let field = self.field(ui, state);
+        lines::labeled(&field, if self.is_short { Role::ListBox } else { Role::TextInput }, self.name);
         if field.changed() {
             state.picked = None;
         }
@@ -104,15 +109,60 @@ impl PickList<'_> {
         let first = state.picked.is_none();
         let last = choices.len().saturating_sub(1);
         let now = state.picked.or(set).unwrap_or(0).min(last);
-        let picked = now.saturating_add_signed(moved).min(last);
+        let typed = self.is_short.then(|| self.typed(ui)).flatten().and_then(|text| {
+            let begins = |&at: &usize| lines[choices[at]].words.to_lowercase().starts_with(&text);
+            // Symbols cannot be typed: else a word of the line, or of what else it is found by, begins with the letters.
+            let has_word = |words: &str| {
+                let words = words.to_lowercase();
+                words.match_indices(text.as_str()).any(|(at, _)| !words[..at].ends_with(char::is_alphanumeric))
+            };
+            let within = |&at: &usize| has_word(&lines[choices[at]].words) || has_word(&lines[choices[at]].also);
+            // One letter again goes on to the next line.
+            let from = (now + usize::from(text.chars().count() == 1)).min(choices.len());
+            let order = || (from..choices.len()).chain(0..from);
+            order().find(begins).or_else(|| order().find(within))
+        });
+        let picked = typed.unwrap_or(now.saturating_add_signed(moved).min(last));
         state.picked = Some(picked);
         if choices.is_empty() {
             ui.label(no_match(&state.text));
             return None;
         }
-        let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-        let clicked = self.lines(ui, &lines, choices[picked], (moved != 0 || first).then_some(picked), theme);
+        // The Enter that opens a short list is no choice from it.
+        let ends = field.lost_focus() || (self.is_short && !first);
+        let entered = ends && ui.input(|input| input.key_pressed(Key::Enter));
+        let clicked =
+            self.lines(ui, &lines, choices[picked], (moved != 0 || first || typed.is_some()).then_some(picked), theme);
         clicked.or(entered.then(|| choices[picked]))
+    }
+
+    /// The field of the text, or the place that has the keyboard in a short list.
+    fn field(&self, ui: &mut Ui, state: &mut PickState) -> Response {
+        if !self.is_short {
+            // In a menu the field is higher than its text.
+            let field = TextEdit::singleline(&mut state.text).id(self.id).align(Align2::LEFT_CENTER);
+            return ui.add(field.hint_text(self.hint).desired_width(f32::INFINITY));
+        }
+        let keys = EventFilter { vertical_arrows: true, horizontal_arrows: true, ..EventFilter::default() };
+        ui.memory_mut(|memory| memory.set_focus_lock_filter(self.id, keys));
+        ui.interact(Rect::from_min_size(ui.cursor().min, Vec2::ZERO), self.id, Sense::focusable_noninteractive())
+    }
+
+    /// Letters typed within a short time, once another one came.
+    fn typed(&self, ui: &Ui) -> Option<String> {
+        let (now, new) = ui.input(|input| {
+            let text = |event: &Event| if let Event::Text(text) = event { Some(text.to_lowercase()) } else { None };
+            (input.time, input.events.iter().filter_map(text).collect::<String>())
+        });
+        let key = self.id.with("typed");
+        let (before, at): (String, f64) = ui.data(|data| data.get_temp(key)).unwrap_or_default();
+        let typed = if now - at < ONE_WORD && before != new { before + &new } else { new.clone() };
+        // A space may have opened the list.
+        let typed = typed.trim_start().to_owned();
+        (!new.is_empty() && !typed.is_empty()).then(|| {
+            ui.data_mut(|data| data.insert_temp(key, (typed.clone(), now)));
+            typed
+        })
     }
 
     /// Lines that the keys move the highlight by while the field has the keyboard.
@@ -248,12 +298,13 @@ fn within(ui: &mut Ui, key: Id, name: &str, theme: &Theme, all: &[Line]) -> Opti
     ui.set_min_width((lines::width(ui, longest, TextStyle::Body) + GUTTER + 6.0 * UNIT).clamp(LEAST, MOST));
     let mut state: PickState = ui.data(|data| data.get_temp(key)).unwrap_or_default();
     let mut places = Vec::new();
-    let field = format!("Filter {name}");
+    let is_short = all.iter().filter(|line| !line.is_heading).count() <= SHORT;
+    let field = if is_short { name.to_owned() } else { format!("Filter {name}") };
     let lines = |text: &str| {
         places = found(all, text);
         places.iter().map(|&index| all[index].clone()).collect()
     };
-    let list = PickList { id: key, name: &field, hint: "Type to filter", height: DROPPED, from_set: true };
+    let list = PickList { id: key, name: &field, hint: "Type to filter", height: DROPPED, from_set: true, is_short };
     let chosen = list.show(ui, &mut state, lines, theme);
     ui.data_mut(|data| data.insert_temp(key, state));
     if chosen.is_some() {

@@ -33,6 +33,16 @@ pub struct DataTable<'a> {
     first: Option<Sorting>,
     compact: bool,
     scrolls: bool,
+    drawn: Option<Drawn<'a>>,
+}
+
+/// A column whose cells are pictures.
+#[derive(Clone, Copy)]
+pub struct Drawn<'a> {
+    pub column: usize,
+    pub width: f32,
+    /// Draws the cell of a row in a rectangle.
+    pub draw: &'a dyn Fn(&egui::Painter, Rect, usize),
 }
 
 /// User actions on a table in a frame; rows are counted in the given order.
@@ -46,7 +56,7 @@ pub struct TableOutput {
 impl<'a> DataTable<'a> {
     /// A table of a pane. `id` names its order and columns in what is saved between runs.
     pub fn new(pane: PaneKind, id: &'a str, table: &'a Table) -> Self {
-        Self { pane, id, table, item: None, first: None, compact: false, scrolls: false }
+        Self { pane, id, table, item: None, first: None, compact: false, scrolls: false, drawn: None }
     }
 
     /// Compact table that is as wide as its columns need, for a place that scrolls.
@@ -61,10 +71,19 @@ impl<'a> DataTable<'a> {
         Self { item: Some(item), ..self }
     }
 
+    #[must_use]
+    pub fn with_drawn(self, drawn: Drawn<'a>) -> Self {
+        Self { drawn: Some(drawn), ..self }
+    }
+
     /// Table sorted by a column until the user sorts by another.
     #[must_use]
     pub fn sorted_by(self, sorting: Sorting) -> Self {
         Self { first: Some(sorting), ..self }
+    }
+
+    fn is_drawn(&self, column: usize) -> bool {
+        self.drawn.is_some_and(|drawn| drawn.column == column)
     }
 
     /// Shows the table in a rectangle, below a bar with filter, columns and copying.
@@ -82,7 +101,8 @@ impl<'a> DataTable<'a> {
         let mut body = self.body(shown, order, &look, context);
         let scroll = self.keys(ui, &mut look, &mut body, context);
         if copy || self.copies(ui, context) {
-            let table = self.copied(&body.shown, &body.order, context);
+            let written: Vec<usize> = body.shown.iter().copied().filter(|column| !self.is_drawn(*column)).collect();
+            let table = self.copied(&written, &body.order, context);
             context.view.say(format!("{} rows copied.", table.rows.len()));
             ui.ctx().copy_text(table.to_tsv());
         }
@@ -115,8 +135,10 @@ impl<'a> DataTable<'a> {
         look: &TableLook,
         context: &PaneContext<'_>,
     ) -> Body<'t> {
-        let layouts = (0..self.table.columns.len()).map(|index| {
-            if shown.contains(&index) { Layout::of(self.table, index, self.compact) } else { Layout::HIDDEN }
+        let layouts = (0..self.table.columns.len()).map(|index| match self.drawn {
+            _ if !shown.contains(&index) => Layout::HIDDEN,
+            Some(drawn) if drawn.column == index => Layout { width: drawn.width, ..Layout::HIDDEN },
+            _ => Layout::of(self.table, index, self.compact),
         });
         Body::new(self, layouts.collect(), shown, order, look, context)
     }
@@ -189,7 +211,7 @@ impl<'a> DataTable<'a> {
     }
 
     fn take_in(&self, body: &Body<'_>, look: &mut TableLook, context: &mut PaneContext<'_>) -> TableOutput {
-        if let Some(column) = body.clicked_head {
+        if let Some(column) = body.clicked_head.filter(|column| !self.is_drawn(*column)) {
             let column = &self.table.columns[column];
             look.sort_by(&column.name, column.largest_first);
         }
@@ -318,6 +340,9 @@ impl DataTable<'_> {
             .desired_width((ui.available_width() - BESIDE).clamp(FILTER[1], FILTER[0]));
         let response = ui.add(edit.align(egui::Align2::LEFT_CENTER).margin(egui::Margin::symmetric(4, 3)));
         super::lines::labeled(&response, egui::Role::TextInput, "Filter rows");
+        if self.pane == PaneKind::LIBRARY && std::mem::take(&mut context.view.focus_search) {
+            response.request_focus();
+        }
         let escaped = response.lost_focus() && ui.input(|input| input.key_down(egui::Key::Escape));
         if escaped {
             look.filter.clear();

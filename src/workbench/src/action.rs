@@ -14,8 +14,8 @@ use crate::document::names::{BuiltInNames, PLACES};
 use crate::document::render::{BALANCE, MeshChoice, RenderSettings, SUN};
 use crate::document::start::Start;
 use crate::document::{
-    Compared, Diagram, Document, FIT_TARGET, LOCUS_RANGE_K, Light, MOST_COMPARED, Overlays, Pixel, SetKind, Subset,
-    TransformChoice, WhiteBalanceChoice,
+    Compared, Diagram, Document, Exaggeration, FIT_TARGET, LOCUS_RANGE_K, Light, MOST_COMPARED, Overlays, Pixel,
+    SetKind, Subset, TransformChoice, WhiteBalanceChoice,
 };
 
 #[derive(Clone, Debug, PartialEq)]
@@ -58,6 +58,7 @@ pub enum SceneAction {
     /// Another color correction; where Eq 13 was chosen, a transform is fitted to the default observer.
     SetCorrection(CorrectionChoice),
     SetDifference(Metric),
+    SetExaggeration(Exaggeration),
     SetDiagram(Diagram),
     SetOverlays(Overlays),
 }
@@ -209,6 +210,7 @@ impl SceneAction {
             Self::SetTransform(TransformChoice::Observer(name)) => format!("Color transform: fitted to {name}"),
             Self::SetCorrection(correction) => format!("Color correction: {}", correction.method.label()),
             Self::SetDifference(metric) => format!("Difference: {}", metric.symbol),
+            Self::SetExaggeration(to) => format!("Exaggerate: {}", to.label()),
             Self::SetDiagram(diagram) => format!("Diagram: {}", diagram.label()),
             Self::SetOverlays(_) => "Overlays of the diagram".to_owned(),
         }
@@ -242,6 +244,7 @@ impl SceneAction {
                 }
             }
             Self::SetDifference(difference) => document.difference = *difference,
+            Self::SetExaggeration(to) => document.exaggeration = *to,
             Self::SetDiagram(diagram) => document.set_diagram(*diagram),
             Self::SetOverlays(overlays) => document.overlays = *overlays,
         }

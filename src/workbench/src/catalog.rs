@@ -130,7 +130,13 @@ impl Catalog {
         }
         entries.sort_by_cached_key(|e| {
             // Of one model's tables the measured ones come first.
-            (e.kind, names::sort_key(names::model_of(&e.name)), e.is_digitized(), names::sort_key(&e.name))
+            (
+                e.kind,
+                names::rank_in_use(e),
+                names::sort_key(names::model_of(&e.name)),
+                e.is_digitized(),
+                names::sort_key(&e.name),
+            )
         });
         let names = BuiltInNames::new(entries.iter().map(|entry| (entry.kind, entry.name.as_str())));
         Self { entries, names }
@@ -140,7 +146,7 @@ impl Catalog {
         &self.names
     }
 
-    /// All sets, by kind and then by name; of one model, measured tables before digitized ones.
+    /// All sets, by kind and then by name, lights in common use first; of one model, measured tables before digitized ones.
     pub fn entries(&self) -> &[Entry] {
         &self.entries
     }

@@ -55,6 +55,8 @@ pub struct Document {
     pub correction: CorrectionChoice,
     #[serde(with = "metric_id")]
     pub difference: Metric,
+    #[serde(skip_serializing_if = "Exaggeration::is_none")]
+    pub exaggeration: Exaggeration,
     pub diagram: Diagram,
     pub overlays: Overlays,
     /// Mesh, material and view of the Render pane.
@@ -178,11 +180,50 @@ choices! {
     }
 }
 
+choices! {
+    /// Factor k on differences where they are drawn: camera = reference + k · difference. Numbers are never multiplied.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub enum Exaggeration {
+        #[default]
+        One = "1", "×1", "Differences as they are";
+        Three = "3", "×3", "Differences drawn three times as large; numbers stay";
+        Ten = "10", "×10", "Differences drawn ten times as large; numbers stay";
+    }
+}
+
+impl Exaggeration {
+    pub const fn factor(self) -> f64 {
+        match self {
+            Self::One => 1.0,
+            Self::Three => 3.0,
+            Self::Ten => 10.0,
+        }
+    }
+
+    #[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature that serde calls")]
+    fn is_none(&self) -> bool {
+        *self == Self::One
+    }
+
+    /// What plots, captions and exports say of it, as "differences ×10"; nothing of ×1.
+    pub fn note(self) -> Option<String> {
+        (!self.is_none()).then(|| format!("differences {}", self.label()))
+    }
+
+    /// The same as a sentence after a blank, for captions.
+    pub fn sentence(self) -> String {
+        self.note().map_or_else(String::new, |note| format!(" D{}, numbers as they are.", &note[1..]))
+    }
+}
+
 /// Overlays of the chromaticity diagram other than loci and patches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 #[expect(clippy::struct_excessive_bools, reason = "independent switches of one menu")]
 pub struct Overlays {
+    /// Each camera's differences below the diagram in place of the strip.
+    pub multiples: bool,
     pub loci: bool,
     /// Patches with their tails.
     pub patches: bool,
@@ -197,7 +238,7 @@ pub struct Overlays {
 
 impl Overlays {
     /// Each switch with what it shows.
-    pub fn labeled(&mut self) -> [(&mut bool, &'static str); 9] {
+    pub fn labeled(&mut self) -> [(&mut bool, &'static str); 10] {
         [
             (&mut self.loci, "Planckian loci"),
             (&mut self.patches, "Patches"),
@@ -208,6 +249,7 @@ impl Overlays {
             (&mut self.srgb, "sRGB"),
             (&mut self.dci_p3, "DCI-P3"),
             (&mut self.rec2020, "Rec. 2020"),
+            (&mut self.multiples, "Differences below: a plot for each camera in place of the temperature strip"),
         ]
     }
 }
@@ -215,6 +257,7 @@ impl Overlays {
 impl Default for Overlays {
     fn default() -> Self {
         Self {
+            multiples: false,
             loci: true,
             patches: true,
             camera_spectral_loci: false,
@@ -291,6 +334,7 @@ impl Document {
             transform: TransformChoice::Paper,
             correction: CorrectionChoice::default(),
             difference: TransformChoice::Paper.preferred_metric(Diagram::Xy),
+            exaggeration: Exaggeration::One,
             diagram: Diagram::Xy,
             overlays: Overlays::default(),
             render: RenderSettings::default(),

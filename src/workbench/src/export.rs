@@ -22,7 +22,7 @@ use resvg::{tiny_skia, usvg};
 use tiff::encoder::{Compression, DeflateLevel, Rational, TiffEncoder, colortype::RGB8};
 use tiff::tags::ResolutionUnit;
 
-use crate::palette::{Colors, FONT, FONT_FAMILY, MONO_FAMILY, MONO_FONT};
+use crate::palette::{Colors, FONT, FONT_FAMILY, MONO_FAMILY, MONO_FONT, SANS_FONT, SERIF_FONT};
 pub use paper::Paper;
 
 /// The longest side of a picture in pixels.
@@ -64,12 +64,12 @@ pub fn json(title: &str, table: &Table) -> String {
 
 /// The figure as SVG. Figures for paper take [`Colors::LIGHT`].
 pub fn svg(figure: &Figure, colors: &Colors, paper: Paper) -> String {
-    let style = svg::SvgStyle { font_family: FONT_FAMILY, mono_family: MONO_FAMILY, encode: &data_uri };
+    let style = svg::SvgStyle { font_family: paper.typeface.families(), mono_family: MONO_FAMILY, encode: &data_uri };
     svg::write(figure, colors, &style, &paper.page_style())
 }
 
 pub fn pdf(figure: &Figure, colors: &Colors, paper: Paper) -> Result<Vec<u8>, ExportError> {
-    let fonts = pdf::PdfFonts { text: FONT, mono: MONO_FONT };
+    let fonts = pdf::PdfFonts { text: paper.typeface.font(), mono: MONO_FONT, fallback: FONT };
     Ok(pdf::write(figure, colors, fonts, &paper.page_style())?)
 }
 
@@ -149,8 +149,9 @@ fn encoded(rgba: &[u8], width: u32, height: u32, compression: CompressionType) -
 fn options() -> usvg::Options<'static> {
     static FONTS: LazyLock<Arc<usvg::fontdb::Database>> = LazyLock::new(|| {
         let mut fonts = usvg::fontdb::Database::new();
-        fonts.load_font_data(FONT.to_vec());
-        fonts.load_font_data(MONO_FONT.to_vec());
+        for font in [FONT, MONO_FONT, SANS_FONT, SERIF_FONT] {
+            fonts.load_font_data(font.to_vec());
+        }
         Arc::new(fonts)
     });
     usvg::Options {
@@ -180,12 +181,13 @@ choices! {
         Tiff = "tif" | "tiff", "TIFF", "Pixels, as some journals want them";
         Csv = "csv", "CSV", "Numbers behind the figure";
         Json = "json", "JSON", "Numbers behind the figure, for programs";
+        Tex = "tex", "LaTeX", "Numbers behind the figure as a table of the package booktabs";
     }
 }
 
 impl FigureForm {
     pub const fn is_numbers(self) -> bool {
-        matches!(self, Self::Csv | Self::Json)
+        matches!(self, Self::Csv | Self::Json | Self::Tex)
     }
 
     /// Form that the ending of a path names.
@@ -205,6 +207,7 @@ impl FigureForm {
                 file(&picture, paper.dpi)
             }
             Self::Csv => Ok(numbers.to_csv().into_bytes()),
+            Self::Tex => Ok(numbers.to_latex(&figure.title).into_bytes()),
             Self::Json => Ok(json(&figure.title, numbers).into_bytes()),
         }
     }

@@ -9,6 +9,7 @@ pub mod chromaticity;
 pub mod correction;
 pub mod curves;
 pub mod data_set;
+pub mod differences;
 pub mod head_to_head;
 pub mod kind;
 pub mod light;
@@ -21,12 +22,14 @@ pub mod report_card;
 pub mod spectra;
 pub mod strip;
 pub mod swatches;
+mod whiskers;
 
 use kind::FigureKind;
 
 /// All kinds, in the order in which the command line lists them.
 pub static FIGURES: &[&FigureKind] = &[
     &chromaticity::KIND,
+    &differences::KIND,
     &strip::KIND,
     &spectra::KIND,
     &swatches::KIND,

@@ -32,6 +32,7 @@ pub mod figures;
 pub mod format;
 pub mod help;
 pub mod jobs;
+pub mod names;
 pub mod palette;
 pub mod plot_item;
 pub mod profiler;

@@ -13,6 +13,11 @@ pub const DIAGRAM_FILL: f32 = 0.1;
 
 /// Family of text in figures.
 pub const FONT_FAMILY: &str = "DejaVu Sans";
+/// Families with the widths of Arial and of Times, of which journals take figures, with those that stand in for them.
+pub const SANS_FAMILY: &str = "Arimo, Arial, Helvetica, DejaVu Sans, sans-serif";
+pub const SERIF_FAMILY: &str = "Tinos, Times New Roman, Times, DejaVu Sans, serif";
+pub const SANS_FONT: &[u8] = include_bytes!("../../../assets/fonts/Arimo.ttf");
+pub const SERIF_FONT: &[u8] = include_bytes!("../../../assets/fonts/Tinos.ttf");
 /// Family of numbers in figures.
 pub const MONO_FAMILY: &str = "DejaVu Sans Mono";
 pub const FONT: &[u8] = include_bytes!("../../../assets/fonts/DejaVuSans.ttf");

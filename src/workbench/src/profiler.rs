@@ -62,7 +62,7 @@ impl SceneRunJob {
     ) -> Option<PicturesQuery> {
         let sources = scene.rendered_sources();
         let settings = &scene.document.render;
-        let orbit = orbit.unwrap_or_else(|| Orbit::of(&settings.mesh));
+        let orbit = orbit.unwrap_or_else(|| Orbit::of(settings));
         let viewpoint = orbit.viewpoint(f64::from(WIDTH) / f64::from(HEIGHT))?;
         let size = RasterSize { width: WIDTH, height: HEIGHT, samples: 1 }.clamped();
         let finish = Finish { shadows: Shadows::Full, compared_samples: None, ..Finish::whole(size, quality) };

@@ -1,10 +1,12 @@
-//! Report on the paper: its figures made with public data, and its claims with what is found.
+//! Reports: on the paper, its figures made with public data and its claims with what is found; on a comparison of one's own.
 //!
 //! Steps are made one by one, each figure in every form, then the page with the claims. Nothing here touches the disk.
 
 mod claim;
+mod comparison;
 mod figures;
 mod geometry;
+mod html;
 mod loci;
 mod model;
 mod page;
@@ -15,10 +17,12 @@ use std::path::PathBuf;
 use std::sync::{Arc, LazyLock, OnceLock};
 
 use chromascope_core::query::Ask as _;
+use chromascope_figure::number::significant;
 use chromascope_figure::{Field, Table};
 use spectral_file::write::Metadata;
 
 pub use claim::{Claim, FURTHER, Find, Finding, Subject, Value, Verdict};
+pub use comparison::OwnMesh;
 pub use figures::{FIGURES, PaperFigure};
 
 use crate::atomic::write_atomically;
@@ -29,9 +33,11 @@ use crate::export::{FigureForm, Paper};
 use crate::format::io_reason;
 use crate::jobs::Job;
 use crate::results::Results;
+use crate::scene::Scene;
 
 pub const PAGE: &str = "report.html";
 pub const NUMBERS: &str = "claims.csv";
+pub const RANKING: &str = "ranking.csv";
 /// What is known about the table of claims.
 const KNOWN: [(&str, &str); 3] = [
     ("title", "Claims of Huynh and Robles-Kelly 2007, with what is found"),
@@ -99,26 +105,56 @@ pub struct ReportFile {
     pub bytes: Vec<u8>,
 }
 
-/// A report: its subject, and the figures made so far.
+/// A report: its subject, and the figures made so far, which stand in its page.
 pub struct Report {
     document: Document,
-    has_own_light: bool,
+    on: On,
     pixels: u32,
     paper: Paper,
     catalog: Catalog,
-    figures: [OnceLock<String>; FIGURES.len()],
+    figures: Vec<OnceLock<String>>,
+}
+
+enum On {
+    Paper {
+        has_own_light: bool,
+    },
+    /// The document as it is. Sentences on what it names and nobody has.
+    Comparison {
+        mesh: OwnMesh,
+        missing: Vec<String>,
+    },
 }
 
 impl Report {
     /// Name of the work that makes it.
     pub const NAME: &'static str = "report";
-    pub const STEPS: usize = FIGURES.len() + 1;
 
     /// A report on a document of the start [`Start::Paper`]; with a light of its own, that takes the place of the paper's lights.
     pub fn new(document: Document, has_own_light: bool, pixels: u32) -> Self {
+        Self::on(document, On::Paper { has_own_light }, FIGURES.len(), pixels)
+    }
+
+    fn on(document: Document, on: On, figures: usize, pixels: u32) -> Self {
         let paper = Paper { width_mm: Some(Paper::TWO_COLUMNS_MM), ..Paper::default() };
-        let figures = std::array::from_fn(|_| OnceLock::new());
-        Self { document, has_own_light, pixels, paper, catalog: Catalog::built_in(), figures }
+        let figures = (0..figures).map(|_| OnceLock::new()).collect();
+        Self { document, on, pixels, paper, catalog: Catalog::built_in(), figures }
+    }
+
+    /// A report on what a document compares and shows, under its conditions; with its mesh, where that is a file.
+    pub fn on_comparison(document: &Document, mesh: OwnMesh, pixels: u32) -> Self {
+        let (mut document, catalog, results) = (document.clone(), Catalog::built_in(), Results::default());
+        document.compared.retain(|compared| compared.visible);
+        let scene = Scene { document: &document, catalog: &catalog, results: &results };
+        let missing = comparison::missing(&scene);
+        let there: Vec<bool> = document.compared.iter().map(|of| scene.sensor(of.kind, &of.name).is_ok()).collect();
+        let mut there = there.into_iter();
+        document.compared.retain(|_| there.next() == Some(true));
+        Self::on(document, On::Comparison { mesh, missing }, comparison::kinds().len(), pixels)
+    }
+
+    pub fn steps(&self) -> usize {
+        self.figures.len() + 1
     }
 
     /// A report on the cameras and patches of another document, and on its imported sets.
@@ -133,16 +169,23 @@ impl Report {
     }
 
     fn subject<'a>(&'a self, results: &'a Results) -> Subject<'a> {
-        let Self { document, has_own_light, catalog, .. } = self;
-        Subject { document, has_own_light: *has_own_light, catalog, results }
+        let Self { document, on, catalog, .. } = self;
+        Subject { document, has_own_light: matches!(on, On::Paper { has_own_light: true }), catalog, results }
     }
 
     /// Name of a step, for progress.
-    pub fn name(step: usize) -> String {
-        FIGURES.get(step).map_or_else(|| "claims".to_owned(), |figure| format!("Figure {}", figure.number))
+    pub fn name(&self, step: usize) -> String {
+        match self.on {
+            On::Paper { .. } if step < FIGURES.len() => format!("Figure {}", FIGURES[step].number),
+            On::Paper { .. } => "claims".to_owned(),
+            On::Comparison { .. } => comparison::kinds().get(step).map_or("ranking", |kind| kind.key).to_owned(),
+        }
     }
 
-    pub fn names() -> Vec<String> {
+    pub fn names(&self) -> Vec<String> {
+        if matches!(self.on, On::Comparison { .. }) {
+            return vec![RANKING.to_owned(), PAGE.to_owned()];
+        }
         let figures = FIGURES.iter().flat_map(|figure| FORMS.map(|form| file_name(figure, form)));
         figures.chain([NUMBERS, PAGE].map(str::to_owned)).chain([format!("{NUMBERS}{}", Metadata::ENDING)]).collect()
     }
@@ -150,6 +193,9 @@ impl Report {
     /// The files of a step; the error is a message.
     pub fn make(&self, step: usize, results: &Results) -> Result<Vec<ReportFile>, String> {
         let subject = self.subject(results);
+        if let On::Comparison { mesh, missing } = &self.on {
+            return Ok(self.of_comparison(step, &subject.scene(&self.document), mesh, missing));
+        }
         let Some(figure) = FIGURES.get(step) else { return Ok(self.claims_and_page(&subject)) };
         let made = figure.laid_out(&subject, &self.paper, self.pixels).ok_or_else(|| {
             format!("Figure {} cannot be drawn: no camera can be compared, or it was stopped.", figure.number)
@@ -162,6 +208,17 @@ impl Report {
             Ok(ReportFile { name: file_name(figure, form), bytes })
         };
         FORMS.into_iter().map(file).collect()
+    }
+
+    fn of_comparison(&self, step: usize, scene: &Scene<'_>, mesh: &OwnMesh, missing: &[String]) -> Vec<ReportFile> {
+        if let Some(place) = self.figures.get(step) {
+            let _made = place.set(comparison::figure(step, scene, &self.paper, (mesh, self.pixels)));
+            return Vec::new();
+        }
+        let figures: String = self.figures.iter().filter_map(OnceLock::get).map(String::as_str).collect();
+        let file = |name: &str, text: String| ReportFile { name: name.to_owned(), bytes: text.into_bytes() };
+        let ranking = comparison::numbers(scene).csv(significant);
+        vec![file(RANKING, ranking), file(PAGE, comparison::page(scene, missing, &figures))]
     }
 
     pub fn judged(&self, results: &Results) -> Vec<Judged> {
@@ -230,7 +287,7 @@ pub struct ReportJob {
 impl ReportJob {
     pub fn all(report: &Arc<Report>, folder: &std::path::Path) -> Vec<Self> {
         let job = |step| Self { report: Arc::clone(report), folder: folder.to_owned(), step };
-        (0..Report::STEPS).map(job).collect()
+        (0..report.steps()).map(job).collect()
     }
 }
 

@@ -17,7 +17,10 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use chromascope_core::camera::{RenderingError, WhiteBalanceTarget};
+use chromascope_core::colorimetry::UvPrime;
 use chromascope_core::colorimetry::diagram::SpectralPoint;
+use chromascope_core::colorimetry::lab::xyz_from_lab;
+use chromascope_core::colorimetry::rgb::encode_srgb;
 use chromascope_core::correction::aces::IdtError;
 use chromascope_core::light::{DaylightError, RadiationConstants, daylight};
 use chromascope_core::patch_set::{PAPER_FIVE, PatchSet};
@@ -37,7 +40,8 @@ use crate::catalog::load::{
 use crate::catalog::{Catalog, Entry};
 use crate::document::names::caseless;
 use crate::document::{
-    Compared, Document, FIT_TARGET, LOCUS_RANGE_K, Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice,
+    Compared, Document, Exaggeration, FIT_TARGET, LOCUS_RANGE_K, Light, SetKind, Subset, TransformChoice,
+    WhiteBalanceChoice,
 };
 use crate::results::Results;
 
@@ -336,6 +340,31 @@ impl<'a> Scene<'a> {
     pub fn patch_colors(&self, kind: SetKind, name: &str) -> Result<Vec<PatchColor>> {
         let query = PatchColorsQuery { rendering: self.rendering_of(kind, name)?, patches: self.patches()? };
         self.rendered(&query, name)
+    }
+
+    /// Patches as they are drawn: differences from the reference times the document's exaggeration, chromaticities in u′v′, colors
+    /// in L*a*b*; L* is not below 0. XYZ and L*a*b* stay as they are.
+    pub fn drawn_patch_colors(&self, kind: SetKind, name: &str) -> Result<Vec<PatchColor>> {
+        let mut colors = self.patch_colors(kind, name)?;
+        let to = self.document.exaggeration;
+        let is_reference = kind == SetKind::Observer && name == self.document.reference;
+        if to == Exaggeration::One || is_reference || !self.is_comparable(kind, name) {
+            return Ok(colors);
+        }
+        let rendering = self.rendered(&self.rendering_of(kind, name)?, name)?;
+        let reference = self.patch_colors(SetKind::Observer, &self.document.reference)?;
+        for (color, reference) in colors.iter_mut().zip(&reference) {
+            color.uv = color.uv.zip(reference.uv).map(|(own, from)| {
+                let far = |own: f64, from: f64| from + to.factor() * (own - from);
+                UvPrime { u: far(own.u, from.u), v: far(own.v, from.v) }
+            });
+            color.xy = color.uv.and_then(UvPrime::xy);
+            if let Some((own, from)) = color.lab.zip(reference.lab) {
+                let xyz = xyz_from_lab(own.exaggerated(from, to.factor()), rendering.lab_white);
+                color.srgb = encode_srgb(rendering.linear_srgb(xyz));
+            }
+        }
+        Ok(colors)
     }
 
     pub fn monochromatic(&self, kind: SetKind, name: &str) -> Result<Vec<SpectralPoint>> {

@@ -90,6 +90,24 @@ fn every_figure_of_a_scene_is_made_at_one_column() {
     }
 }
 
+#[test]
+fn axes_end_where_they_are_told_to_and_layers_are_left_out() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let drawn = |kind: &str, options: &[&str]| {
+        let out = folder.path().join("figure.svg").to_string_lossy().into_owned();
+        let done = run(&[&["figure", kind, "--force", "--out", &out], options].concat());
+        assert!(done.status.success(), "{kind}: {}", String::from_utf8_lossy(&done.stderr));
+        fs::read_to_string(&out).expect("a file")
+    };
+    let spectra = drawn("spectra", &["--x-range", "500,600", "--typeface", "serif"]);
+    assert!(spectra.contains(">500</text>") && spectra.contains(">600</text>") && !spectra.contains(">400</text>"));
+    assert!(spectra.contains("font-family=\"Tinos,"));
+    let whole = drawn("chromaticity", &[]);
+    let bare = drawn("chromaticity", &["--no-loci", "--x-range", "0.3,0.5", "--y-range", "0.3,0.42"]);
+    assert!(whole.contains("Loci from") && whole.contains("Large ring") && !bare.contains("Loci from 1000"), "{bare}");
+    assert!(bare.contains(">0.35</text>") && !bare.contains(">0.8</text>"));
+}
+
 /// Value and uncertainty of each metric's column of a camera, by `compare`.
 fn compared(camera: &str, options: &[&str]) -> Vec<(String, [Option<f64>; 2])> {
     let named = ["compare", "--camera", camera, "--metrics", "all", "--format", "json"];
@@ -202,7 +220,7 @@ fn a_height_that_rows_do_not_have_is_refused() {
     let done = run(&["figure", "head-to-head", "--height", "50mm", "--out", &out]);
     assert_eq!(done.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&done.stderr).contains("mm high"));
-    let done = run(&["figure", "chromaticity", "--height", "90mm", "--out", &out]);
+    let done = run(&["figure", "chromaticity", "--height", "110mm", "--out", &out]);
     assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
-    assert!(fs::read_to_string(&out).expect("a file").contains("height=\"90"));
+    assert!(fs::read_to_string(&out).expect("a file").contains("height=\"110"));
 }

@@ -22,4 +22,8 @@ fn a_report_is_made_in_a_folder_with_any_cameras() {
     let claims = std::fs::read_to_string(format!("{out}/claims.csv")).unwrap();
     assert!(claims.contains("not judged,,length in xy,Nikon D5100 (NPL)"), "{claims}");
     refused(&arguments, &["figure1.pdf", "--force"]);
+    refused(
+        &["report", "--out", out, "--session", "work.chromascope", "--camera", "Nikon D3300"],
+        &["--session", "--camera"],
+    );
 }

@@ -4,6 +4,7 @@ use std::process::Command as Process;
 use std::sync::Arc;
 
 use chromascope::command::TourMove;
+use chromascope::view::tour::Tour;
 
 use super::*;
 use crate::own_data::Dropped;
@@ -30,18 +31,18 @@ fn what_is_written_during_the_tour_is_the_users_document() {
     window.state_mut().push(SessionCommand::Save);
     window.state_mut().push(temperature(3100.0));
     window.state_mut().push(SessionCommand::Save);
-    push(&mut window, Command::Tour(TourMove::Begin));
+    push(&mut window, Command::Tour(TourMove::Begin(Tour::Paper)));
     until(&mut window, "the second write", |app| app.title() == "a – Chromascope");
-    assert_eq!((window.state().view.tour, kelvin_in(&path)), (Some(0), 3100.0));
+    assert_eq!((window.state().view.tour, kelvin_in(&path)), (Some((Tour::Paper, 0)), 3100.0));
     push(&mut window, Command::Tour(TourMove::End));
     assert!(document(&window).temperature_k == 3100.0 && knows_its_file(&window, &path));
     // So is what is saved under a name that was asked for before it.
     let other = folder.join("b.chromascope");
     window.state_mut().push(SessionCommand::SaveAs);
-    push(&mut window, Command::Tour(TourMove::Begin));
+    push(&mut window, Command::Tour(TourMove::Begin(Tour::Paper)));
     answer(&mut window, &other);
     saved(&mut window);
-    assert_eq!(window.state().view.tour, Some(0));
+    assert_eq!(window.state().view.tour, Some((Tour::Paper, 0)));
     push(&mut window, Command::Tour(TourMove::End));
     assert_eq!((window.state().title(), kelvin_in(&other)), ("b – Chromascope", 3100.0));
 }

@@ -9,7 +9,7 @@ use chromascope_core::camera::WhiteBalanceTarget;
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::render::MeshQuery;
 use chromascope_core::query::render::picture::{Pictures, PicturesQuery};
-use chromascope_core::query::render::{GeometryQuery, Roughness, ShadingQuery, VisibilityQuery};
+use chromascope_core::query::render::{GeometryQuery, Parts, Roughness, ShadingQuery, VisibilityQuery};
 use chromascope_core::query::{Ask, ColorTransformSpec, Query, RenderingQuery, Shared};
 use chromascope_core::reflectance::{Normalization, Specular, Surface};
 use chromascope_core::render::{Quality, RasterSize, Reach, Shadows};
@@ -23,7 +23,7 @@ use crate::support;
 pub(super) struct FrameCase {
     pub sources: Vec<RenderingQuery>,
     pub reflectance: Shared<GridSpectrum>,
-    pub garment: Option<Shared<GridSpectrum>>,
+    pub parts: Parts,
     pub mesh: MeshQuery,
     pub size: RasterSize,
     pub yaw: f64,
@@ -61,7 +61,7 @@ impl FrameCase {
         Self {
             sources: sensors.iter().map(rendering).collect(),
             reflectance: Shared::new(skin.patches()[0].grid.clone()),
-            garment: None,
+            parts: Parts::new(),
             mesh: MeshQuery::Sphere(2_000),
             size: RasterSize::new(40, 40),
             yaw: 0.0,
@@ -106,14 +106,16 @@ impl FrameCase {
                 quality,
                 sky,
                 open_sky: false,
+                bounce: false,
             },
             reflectance: self.reflectance.clone(),
-            garment: self.garment.clone(),
+            parts: self.parts.clone(),
             reference: self.sources[0].clone(),
             sources: self.sources.clone(),
             ev: self.ev.to_bits(),
             background: None,
             metric: self.metric,
+            exaggeration: 1_f64.to_bits(),
             compared_samples: Some(500),
         }
     }

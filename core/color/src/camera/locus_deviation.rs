@@ -6,6 +6,7 @@ use crate::colorimetry::{Uv60, UvPrime};
 use crate::math::minimum::minimum;
 use crate::spectral::Sensor;
 use crate::units::Kelvin;
+use glam::DVec2;
 use std::ops::Deref;
 
 /// Reciprocal temperatures of the reference's locus, in mired: 100 000 K to 500 K.
@@ -16,10 +17,13 @@ const POINTS: usize = 400;
 const FARTHEST_UV: f64 = 0.05;
 /// Share of a reciprocal temperature over which the locus's direction is taken.
 const STEP: f64 = 1e-4;
-/// Interval in mired that the nearest point is searched down to.
+/// Interval in mired that the nearest point is searched down to where Newton's method leaves it.
 const SEARCH: f64 = 1e-8;
-/// Distance of the points of the parabola through it, in mired.
-const PARABOLA: f64 = 0.01;
+/// Half the distance over which the locus's first and second derivative are taken, in mired, and steps by these.
+const STEP_MIRED: f64 = 0.01;
+const STEPS: usize = 4;
+/// Places in a mired from which the last step, which squares the distance, goes.
+const LATTICE: f64 = 131_072.0;
 
 /// Deviation of a blackbody's color through a sensor from the reference's.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,6 +35,8 @@ pub struct LocusDeviation {
     /// Correlated color temperature on the reference's own locus, nearest in CIE 1960 u, v as CIE 15 defines it, minus the true
     /// temperature, in kelvins; none beyond 500 K and 100 000 K, and farther than 0.05 in u, v from the locus.
     pub cct_error_k: Option<f64>,
+    /// Distance from that nearest point in CIE 1960 u, v, positive above it (green and yellow); none where there is no such point.
+    pub duv: Option<f64>,
 }
 
 /// The reference's own Planckian locus, as its colors are shown.
@@ -67,15 +73,18 @@ impl<S: Deref<Target = Sensor>> ReferenceLocus<S> {
         let length = du.hypot(dv);
         let [u, v] = [color.u - true_color.u, color.v - true_color.v];
         let upwards = if du >= 0.0 { 1.0 } else { -1.0 };
+        let nearest = self.nearest(color.uv60());
         (length > 0.0).then(|| LocusDeviation {
             along: (u * du + v * dv) / length,
             off: upwards * (v * du - u * dv) / length,
-            cct_error_k: self.nearest_k(color.uv60()).map(|kelvin| kelvin - temperature.get()),
+            cct_error_k: nearest.map(|(kelvin, _)| kelvin - temperature.get()),
+            duv: nearest.map(|(_, duv)| duv),
         })
     }
 
-    fn nearest_k(&self, color: Uv60) -> Option<f64> {
-        let away = |place: Uv60| (place.u - color.u).hypot(place.v - color.v);
+    /// Temperature in kelvins of the nearest point, and the distance from it.
+    fn nearest(&self, color: Uv60) -> Option<(f64, f64)> {
+        let away = |place: Uv60| (place.u - color.u).powi(2) + (place.v - color.v).powi(2);
         let distance = |place: &(f64, Uv60)| away(place.1);
         let nearest =
             (0..self.points.len()).min_by(|&a, &b| distance(&self.points[a]).total_cmp(&distance(&self.points[b])))?;
@@ -83,12 +92,24 @@ impl<S: Deref<Target = Sensor>> ReferenceLocus<S> {
             return None;
         }
         let (low, high) = (self.points[nearest - 1].0, self.points[nearest + 1].0);
-        let at = |mired: f64| self.at(mired).map_or(f64::INFINITY, |place| away(place.uv60()));
-        let mired = minimum(low, high, SEARCH, at);
-        // Golden sections end where the distance is flat to rounding; the parabola through three points about there does not.
-        let [before, here, after] = [mired - PARABOLA, mired, mired + PARABOLA].map(|place| at(place).powi(2));
-        let vertex = mired - 0.5 * PARABOLA * (after - before) / (after - 2.0 * here + before);
-        let mired = if (vertex - mired).abs() < PARABOLA { vertex } else { mired };
-        (at(mired) <= FARTHEST_UV).then(|| 1e6 / mired)
+        let at =
+            |mired: f64| self.at(mired).map_or(DVec2::INFINITY, |place| DVec2::new(place.uv60().u, place.uv60().v));
+        let color = DVec2::new(color.u, color.v);
+        // Newton's method: the tangent is perpendicular to the way to the color.
+        let nearer = |mired: f64| {
+            // On a lattice: colors that differ by rounding alone then see the same rounding of the locus.
+            let mired = (mired * LATTICE).round() / LATTICE;
+            let [before, here, after] = [mired - STEP_MIRED, mired, mired + STEP_MIRED].map(at);
+            let tangent = (after - before) / (2.0 * STEP_MIRED);
+            let bend = (after - 2.0 * here + before) / (STEP_MIRED * STEP_MIRED);
+            mired + tangent.dot(color - here) / (tangent.length_squared() - bend.dot(color - here))
+        };
+        let inside = |mired: &f64| (low..=high).contains(mired);
+        let by_steps = |from: f64| (0..STEPS).try_fold(from, |mired, _| Some(nearer(mired)).filter(inside));
+        let sections = || minimum(low, high, SEARCH, |mired| at(mired).distance_squared(color));
+        let mired = by_steps(self.points[nearest].0).or_else(|| by_steps(sections()))?;
+        let place = at(mired);
+        let duv = place.distance(color).copysign(color.y - place.y);
+        (duv.abs() <= FARTHEST_UV).then(|| (1e6 / mired, duv))
     }
 }

@@ -17,7 +17,10 @@ use crate::spectral::{GridSpectrum, Sensor};
 use crate::units::{bits, hash_by};
 use glam::{DMat3, DVec3};
 
-/// Sensitivity metamerism index of a sensor.
+/// Rounds of reweighting of fits near one of minimum ΔE*ab.
+const REFIT_ROUNDS: usize = 4;
+
+/// Observer's colors of the patches: the part of a sensitivity metamerism index that all sensors share.
 ///
 /// ```text
 /// SMI = 100 − 5.5 mean ΔE*ab
@@ -25,18 +28,6 @@ use glam::{DMat3, DVec3};
 /// over the patches after a 3×3 fitted over the same patches, white not kept (ISO 17321-1:2012, annex: D55, the 18 chromatic patches of
 /// the `ColorChecker`). The standard leaves the fit open, so both usual ones stand here. 100 for a sensor that is a linear combination
 /// of the observer's curves; negative for a sensor worse than a mean ΔE*ab of 18.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MetamerismIndex {
-    /// By the matrix of least squares in XYZ.
-    pub least_squares: f64,
-    /// By the matrix of least mean ΔE*ab.
-    pub min_delta_e: f64,
-}
-
-/// Rounds of reweighting of fits near one of minimum ΔE*ab.
-const REFIT_ROUNDS: usize = 4;
-
-/// Observer's colors of the patches: the part of an index that all sensors share.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IndexSamples {
     white: Xyz,
@@ -56,7 +47,7 @@ impl IndexSamples {
         Ok(Self { white: Xyz::from_vector(white), targets: targets.collect() })
     }
 
-    /// The index of a sensor under the same light and patches.
+    /// The index of a sensor under the same light and patches, with the transform of the fit.
     ///
     /// # Errors
     /// [`RenderingError`] where a channel does not respond to the light or the patches do not determine a matrix.
@@ -65,7 +56,8 @@ impl IndexSamples {
         sensor: &Sensor,
         light: &GridSpectrum,
         patches: &PatchSet,
-    ) -> Result<MetamerismIndex, RenderingError> {
+        method: CorrectionMethod,
+    ) -> Result<(f64, RgbTransform), RenderingError> {
         let product = under_light(sensor, light);
         let divisors = DVec3::from_array(sensor.integrate(light.values()));
         if !divisors.is_finite() || divisors.abs().min_element() == 0.0 {
@@ -73,11 +65,8 @@ impl IndexSamples {
         }
         let samples: Vec<DVec3> =
             patches.patches().iter().map(|patch| raw(&product, patch.grid.values()) / divisors).collect();
-        let by = |method| self.of(&samples, &self.fit(&samples, method)?).ok_or(RenderingError::NoWhite);
-        Ok(MetamerismIndex {
-            least_squares: by(CorrectionMethod::LeastSquares)?,
-            min_delta_e: by(CorrectionMethod::Minimize(Objective::DeltaE1976))?,
-        })
+        let transform = self.fit(&samples, method)?;
+        Ok((self.of(&samples, &transform).ok_or(RenderingError::NoWhite)?, transform))
     }
 
     /// Transform of samples, balanced to unity, to the observer's colors.
@@ -89,19 +78,11 @@ impl IndexSamples {
         self.training(samples, &vec![1.0; samples.len()]).fit(&correction, self.white)
     }
 
-    /// Fits near that of minimum ΔE*ab of these samples; none where there is no such fit.
-    pub fn refit(&self, samples: &[DVec3]) -> Option<Refit> {
-        let objective = Objective::DeltaE1976;
-        let RgbTransform::Matrix(matrix) = self.fit(samples, CorrectionMethod::Minimize(objective)).ok()? else {
-            return None;
-        };
-        Refit::new(
-            self.training(samples, &vec![1.0; samples.len()]),
-            self.white,
-            false,
-            (objective, REFIT_ROUNDS),
-            matrix,
-        )
+    /// Fits near that of minimum ΔE*ab of these samples.
+    pub fn refit(&self, samples: &[DVec3], fitted: &RgbTransform) -> Option<Refit> {
+        let (RgbTransform::Matrix(matrix), weights) = (fitted, vec![1.0; samples.len()]) else { return None };
+        let by = (Objective::DeltaE1976, REFIT_ROUNDS);
+        Refit::new(self.training(samples, &weights), self.white, false, by, *matrix)
     }
 
     fn training<'a>(&'a self, samples: &'a [DVec3], weights: &'a [f64]) -> Training<'a> {
@@ -259,21 +240,29 @@ pub struct SpaceQuality {
     pub factors: [f64; 3],
 }
 
-impl SpaceQuality {
-    /// Agreement of a sensor with an observer; none where the curves of one of them are linearly dependent.
-    pub fn new(sensor: &Sensor, observer: &Sensor) -> Option<Self> {
-        Self::of(&curves(sensor), &curves(observer))
+/// Space of an observer's curves: the part that all sensors share.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ObserverSpace {
+    /// Curves on the grid in one scale.
+    pub curves: [Vec<f64>; 3],
+    basis: Vec<Vec<f64>>,
+}
+
+impl ObserverSpace {
+    /// Space of an observer; none where its curves are linearly dependent.
+    pub fn new(observer: &Sensor) -> Option<Self> {
+        let curves = curves(observer);
+        Some(Self { basis: basis(&curves)?, curves })
     }
 
-    /// Agreement of two sets of curves on the grid, each set in one scale.
-    pub fn of(channels: &[Vec<f64>; 3], matching: &[Vec<f64>; 3]) -> Option<Self> {
-        let (own, seen) = (basis(channels)?, basis(matching)?);
-        let vora = own.iter().map(|curve| inside(curve, &seen)).sum::<f64>() / 3.0;
-        let power: f64 = matching.iter().map(|curve| dot(curve, curve)).sum();
-        let left: f64 = matching.iter().map(|curve| outside(curve, &own)).sum();
-        let factor = |curve: &Vec<f64>| inside(curve, &seen) / dot(curve, curve);
-        let [r, g, b] = channels;
-        Some(Self { vora, luther: (left / power).sqrt(), factors: [factor(r), factor(g), factor(b)] })
+    /// Agreement of a sensor's curves on the grid, in one scale; none where they are linearly dependent.
+    pub fn quality(&self, channels: &[Vec<f64>; 3]) -> Option<SpaceQuality> {
+        let (own, seen) = (basis(channels)?, &self.basis);
+        let vora = own.iter().map(|curve| inside(curve, seen)).sum::<f64>() / 3.0;
+        let power: f64 = self.curves.iter().map(|curve| dot(curve, curve)).sum();
+        let left: f64 = self.curves.iter().map(|curve| outside(curve, &own)).sum();
+        let factors = channels.each_ref().map(|curve| inside(curve, seen) / dot(curve, curve));
+        Some(SpaceQuality { vora, luther: (left / power).sqrt(), factors })
     }
 }
 

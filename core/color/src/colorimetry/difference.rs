@@ -32,7 +32,7 @@ pub struct Metric {
     pub symbol: &'static str,
     /// Meaningful decimals of a single difference.
     pub decimals: usize,
-    /// Difference that fills a bar: clearly visible.
+    /// Difference that fills a bar: clearly visible; larger ones are signed.
     pub full_scale: f64,
     formula: Formula,
 }
@@ -49,11 +49,11 @@ impl Metric {
     /// All metrics, in the order they are listed.
     pub const ALL: &[Self] = &[
         Self::DELTA_E_2000,
-        Self::new(["delta-e1976", "delta_e_1976", "CIE 1976 formula", "ΔE*ab"], 2, 20.0, Formula::Lab(delta_e_1976)),
+        Self::new(["delta-e1976", "delta_e_1976", "CIE 1976 formula", "ΔE*ab"], 2, 5.0, Formula::Lab(delta_e_1976)),
         Self::new(
             ["delta-e1994", "delta_e_1994", "CIE 1994 formula for graphic arts", "ΔE*94"],
             2,
-            20.0,
+            5.0,
             Formula::Lab(delta_e_1994),
         ),
         Self::UV_PRIME,
@@ -62,7 +62,7 @@ impl Metric {
 
     /// CIEDE2000.
     pub const DELTA_E_2000: Self =
-        Self::new(["delta-e2000", "delta_e_2000", "CIEDE2000 formula", "ΔE*00"], 2, 20.0, Formula::Lab(delta_e_2000));
+        Self::new(["delta-e2000", "delta_e_2000", "CIEDE2000 formula", "ΔE*00"], 2, 5.0, Formula::Lab(delta_e_2000));
 
     /// Distance in the CIE 1976 diagram.
     pub const UV_PRIME: Self = Self::new(

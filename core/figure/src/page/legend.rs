@@ -13,55 +13,49 @@ const ROW: f64 = 20.0;
 const KEY: f64 = 28.0;
 const PAD: f64 = 8.0;
 const MOST_COLUMNS: usize = 6;
-/// Width below which a legend inside is small.
-const NARROW: f64 = 500.0;
 const LEAST: f64 = 60.0;
 const GAP: f64 = 12.0;
 
 /// Height of a further line of a long name.
 const LINE: f64 = 15.0;
+/// Size of the names.
+const SIZE: TextSize = TextSize::Small;
 
-/// Columns of a legend with the size of its text.
+/// Columns of a legend.
 #[derive(Clone, PartialEq, Debug)]
 struct Columns {
     widths: Vec<f64>,
-    size: TextSize,
     names: Vec<Vec<String>>,
 }
 
 impl Columns {
     /// So many columns, filled row by row; a name wider than there is room for one column stands in lines.
-    fn new(entries: &[LegendEntry], count: usize, size: TextSize, room: f64) -> Self {
+    fn new(entries: &[LegendEntry], count: usize, room: f64) -> Self {
         let mut widths = vec![0.0_f64; count.max(1)];
         // After the last column none is needed.
         let most = (room - PAD - KEY + 0.5).max(LEAST);
-        let names: Vec<Vec<String>> = entries.iter().map(|entry| wrapped(&entry.name, size, most)).collect();
+        let names: Vec<Vec<String>> = entries.iter().map(|entry| wrapped(&entry.name, SIZE, most)).collect();
         for (i, lines) in names.iter().enumerate() {
-            let widest = lines.iter().map(|line| text_width(line, size)).fold(0.0, f64::max);
+            let widest = lines.iter().map(|line| text_width(line, SIZE)).fold(0.0, f64::max);
             let width = &mut widths[i % count.max(1)];
             *width = width.max(2.0 * PAD + KEY + widest);
         }
-        Self { widths, size, names }
+        Self { widths, names }
     }
 
-    /// The fewest rows that fit below a figure; text that stands in fewer rows if it is small is small.
+    /// The fewest rows that fit below a figure.
     fn below(entries: &[LegendEntry], width: f64) -> Self {
-        let fit = |size| {
-            let most = entries.len().clamp(1, MOST_COLUMNS);
-            let fitting = (1..=most).rev().map(|count| Self::new(entries, count, size, width));
-            let fewest = fitting.into_iter().find(|columns| columns.width() <= width + PAD + 0.5);
-            let rows = fewest.map_or(entries.len(), |columns| columns.rows(entries)).max(1);
-            // In rows as full as possible.
-            Self::new(entries, entries.len().div_ceil(rows), size, width)
-        };
-        let [body, small] = [TextSize::Body, TextSize::Small].map(fit);
-        if body.widths.len() == 1 && small.widths.len() > 1 { small } else { body }
+        let most = entries.len().clamp(1, MOST_COLUMNS);
+        let mut fitting = (1..=most).rev().map(|count| Self::new(entries, count, width));
+        let fewest = fitting.find(|columns| columns.width() <= width + PAD + 0.5);
+        let rows = fewest.map_or(entries.len(), |columns| columns.rows(entries)).max(1);
+        // In rows as full as possible.
+        Self::new(entries, entries.len().div_ceil(rows), width)
     }
 
-    /// One column in a plot: of small text in a narrow figure, where it would cover too much.
+    /// One column in a plot.
     fn inside(entries: &[LegendEntry], width: f64) -> Self {
-        let size = if width < NARROW { TextSize::Small } else { TextSize::Body };
-        Self::new(entries, 1, size, 0.7 * width)
+        Self::new(entries, 1, 0.7 * width)
     }
 
     fn rows(&self, entries: &[LegendEntry]) -> usize {
@@ -87,7 +81,7 @@ pub(super) fn outside(figure: &Figure, place: LegendPlace, [width, height]: [f64
     match place {
         _ if figure.legend.is_empty() => None,
         LegendPlace::Outside => {
-            let size = Columns::new(&figure.legend, 1, TextSize::Body, f64::INFINITY).size();
+            let size = Columns::new(&figure.legend, 1, f64::INFINITY).size();
             Some(Rect::from_min_size([width + GAP, 0.0], size))
         }
         LegendPlace::Below => {
@@ -114,7 +108,7 @@ pub(super) fn draw(
     }
     let (columns, inset) = match place {
         LegendPlace::Below => (Columns::below(&figure.legend, area.width()), 0.0),
-        LegendPlace::Outside => (Columns::new(&figure.legend, 1, TextSize::Body, f64::INFINITY), PAD),
+        LegendPlace::Outside => (Columns::new(&figure.legend, 1, f64::INFINITY), PAD),
         _ => (Columns::inside(&figure.legend, figure.size[0]), PAD),
     };
     for (i, entry) in figure.legend.iter().enumerate() {
@@ -125,7 +119,7 @@ pub(super) fn draw(
         key(brush, entry, [x, y]);
         for (row, line) in columns.names[i].iter().enumerate() {
             let at = [x + KEY + PAD, y + LINE * row as f64];
-            brush.text(&TextLine::new(at, line, Anchor::LEFT, columns.size, InkRole::Text.into()));
+            brush.text(&TextLine::new(at, line, Anchor::LEFT, SIZE, InkRole::Text.into()));
         }
     }
 }

@@ -119,16 +119,16 @@ fn draw_grid(brush: &mut Brush<'_>, panel: &Panel, projection: &Projection) {
 fn draw_tick_labels(brush: &mut Brush<'_>, panel: &Panel, projection: &Projection) {
     let (plot, ink) = (projection.plot, Ink::new(InkRole::Weak));
     for tick in &projection.x_ticks {
-        let half = 0.5 * text_width(&tick.label, TextSize::Body);
+        let half = 0.5 * text_width(&tick.label, TextSize::Small);
         let x = projection.at([tick.value, projection.y[0]])[0];
         let x = x.min(panel.area.max[0] - half).max(panel.area.min[0] + half);
-        brush.text(&TextLine::new([x, plot.max[1] + 6.0], &tick.label, Anchor::TOP, TextSize::Body, ink));
+        brush.text(&TextLine::new([x, plot.max[1] + 6.0], &tick.label, Anchor::TOP, TextSize::Small, ink));
     }
     for tick in &projection.y_ticks {
-        let half = 0.5 * f64::from(TextSize::Body.points());
+        let half = 0.5 * f64::from(TextSize::Small.points());
         let y = projection.at([projection.x[0], tick.value])[1];
         let y = y.min(panel.area.max[1] - half).max(panel.area.min[1] + half);
-        brush.text(&TextLine::new([plot.min[0] - 7.0, y], &tick.label, Anchor::RIGHT, TextSize::Body, ink));
+        brush.text(&TextLine::new([plot.min[0] - 7.0, y], &tick.label, Anchor::RIGHT, TextSize::Small, ink));
     }
 }
 

@@ -41,6 +41,7 @@ pub struct PatchDifferences {
 }
 
 /// Conditions under which differences have a meaning.
+#[derive(Clone, Copy)]
 pub(super) struct DifferenceConditions {
     pub(super) comparable: Result<(), WhyNot>,
     by_eq_13: bool,
@@ -56,20 +57,33 @@ impl DifferenceConditions {
     }
 
     pub(super) fn differences(&self, reference: &PatchColor, sample: &PatchColor) -> PatchDifferences {
-        let by_metric = |&metric: &Metric| {
-            self.comparable?;
-            if self.by_eq_13 && metric.needs_adopted_white() {
-                return Err(WhyNot::Eq13);
-            }
-            Ok(difference(metric, reference, sample)?)
-        };
-        let comparable = self.comparable.is_ok();
-        let labs = reference.lab.zip(sample.lab).filter(|_| comparable && !self.by_eq_13);
         PatchDifferences {
-            by_metric: Metric::ALL.iter().map(by_metric).collect(),
-            lch: labs.map(|(reference, sample)| lightness_chroma_hue(reference, sample)),
-            angle_deg: angle_deg(reference.linear, sample.linear).filter(|_| comparable),
+            by_metric: Metric::ALL.iter().map(|&metric| self.difference(metric, reference, sample)).collect(),
+            lch: self.lch(reference, sample),
+            angle_deg: self.angle_deg(reference, sample),
         }
+    }
+
+    pub(super) fn difference(
+        &self,
+        metric: Metric,
+        reference: &PatchColor,
+        sample: &PatchColor,
+    ) -> Result<f64, WhyNot> {
+        self.comparable?;
+        if self.by_eq_13 && metric.needs_adopted_white() {
+            return Err(WhyNot::Eq13);
+        }
+        Ok(difference(metric, reference, sample)?)
+    }
+
+    pub(super) fn lch(&self, reference: &PatchColor, sample: &PatchColor) -> Option<[f64; 3]> {
+        let labs = reference.lab.zip(sample.lab).filter(|_| self.comparable.is_ok() && !self.by_eq_13);
+        labs.map(|(reference, sample)| lightness_chroma_hue(reference, sample))
+    }
+
+    pub(super) fn angle_deg(&self, reference: &PatchColor, sample: &PatchColor) -> Option<f64> {
+        angle_deg(reference.linear, sample.linear).filter(|_| self.comparable.is_ok())
     }
 }
 

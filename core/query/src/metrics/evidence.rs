@@ -1,20 +1,25 @@
 //! Inputs of the metrics, as separate queries, so that each is computed once whatever else changes.
 
 use super::differences::{DifferenceConditions, PatchDifferences, Statistic};
-use super::table::CameraMetric;
+use super::table::{CameraMetric, MetricSet};
 use super::value::{CameraMetricsQuery, IndexConditions, WhyNot};
 use crate::ask::{Ask, Query, Shared};
 use crate::compare::DifferenceError;
 use crate::loci::LocusRulesQuery;
-use crate::patches::{PatchColorsQuery, RenderingQuery};
+use crate::patches::{PatchColor, PatchColorsQuery, RenderingQuery};
 use chromascope_color::camera::channel_ratio::has_equal_maxima;
 use chromascope_color::camera::quality::{
-    Electrons, IndexSamples, MetamerismIndex, NoiseAmplification, SpaceQuality, gray_snr_db,
+    Electrons, IndexSamples, NoiseAmplification, ObserverSpace, SpaceQuality, curves, gray_snr_db,
 };
 use chromascope_color::camera::{LocusDeviation, LocusEvaluator, ReferenceLocus, Rendering, RenderingError};
+use chromascope_color::colorimetry::Metric;
+use chromascope_color::correction::minimize::Objective;
+use chromascope_color::correction::{CorrectionMethod, RgbTransform};
 use chromascope_color::light::RadiationConstants;
 use chromascope_color::spectral::{Primaries, Sensor};
 use chromascope_color::units::Kelvin;
+use std::cell::{LazyCell, OnceCell};
+use std::sync::Arc;
 
 /// Colors of the patches for the observer of the index.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -29,23 +34,29 @@ impl Query for IndexSamplesQuery {
     }
 }
 
-/// Sensitivity metamerism index of a sensor.
+/// Sensitivity metamerism index of a sensor, with the transform of its fit.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct MetamerismIndexQuery {
     /// The sensor.
     pub sensor: Shared<Sensor>,
     /// Observer, light and patches.
     pub conditions: IndexConditions,
+    /// Fit.
+    pub method: CorrectionMethod,
 }
 
+/// Fits of the two metamerism indices.
+pub(super) const INDEX_METHODS: [CorrectionMethod; 2] =
+    [CorrectionMethod::LeastSquares, CorrectionMethod::Minimize(Objective::DeltaE1976)];
+
 impl Query for MetamerismIndexQuery {
-    type Answer = Result<MetamerismIndex, RenderingError>;
+    type Answer = Result<(f64, RgbTransform), RenderingError>;
     const NAME: &'static str = "metamerism index";
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let samples = ask.ask(&IndexSamplesQuery(self.conditions.clone()));
         let samples = (*samples).as_ref().map_err(|&e| e)?;
-        samples.index(&self.sensor, &self.conditions.light, &self.conditions.patches)
+        samples.index(&self.sensor, &self.conditions.light, &self.conditions.patches, self.method)
     }
 }
 
@@ -63,7 +74,7 @@ impl Query for SpaceQualityQuery {
     const NAME: &'static str = "space quality";
 
     fn answer(&self, _: &impl Ask) -> Self::Answer {
-        SpaceQuality::new(&self.sensor, &self.observer)
+        ObserverSpace::new(&self.observer)?.quality(&curves(&self.sensor))
     }
 }
 
@@ -111,82 +122,135 @@ impl Query for LocusDeviationQuery {
     }
 }
 
-/// All that metrics of one sensor are computed from.
-pub(super) struct Evidence {
-    pub(super) patches: Result<Vec<PatchDifferences>, WhyNot>,
-    pub(super) locus: Result<LocusDeviation, WhyNot>,
-    pub(super) space: Result<SpaceQuality, WhyNot>,
-    pub(super) index: Result<MetamerismIndex, WhyNot>,
-    pub(super) noise: Result<NoiseAmplification, WhyNot>,
-    /// Reason for no gains of raw channels.
-    pub(super) scale: Result<(), WhyNot>,
-    pub(super) snr_db: Result<f64, WhyNot>,
+/// A part of what metrics are computed from, made when the first metric asks for it.
+pub(super) type Part<'a, T> = LazyCell<Result<T, WhyNot>, Box<dyn FnOnce() -> Result<T, WhyNot> + 'a>>;
+
+pub(super) fn part<'a, T>(make: impl FnOnce() -> Result<T, WhyNot> + 'a) -> Part<'a, T> {
+    LazyCell::new(Box::new(make))
 }
 
-impl Evidence {
-    pub(super) fn new(of: &CameraMetricsQuery, ask: &impl Ask) -> Self {
-        let CameraMetricsQuery { rendering, reference, .. } = of.clone();
-        let sensor = rendering.sensor.clone();
-        let scale = channel_scale(&sensor);
-        let (noise, snr_db) = noise(of, scale, ask);
-        let locus = LocusDeviationQuery { rendering, reference, temperature: of.temperature };
-        let space = SpaceQualityQuery { sensor: sensor.clone(), observer: of.reference.sensor.clone() };
-        let index = MetamerismIndexQuery { sensor, conditions: of.index.clone() };
+/// Colors of patches.
+type Colors = Result<Vec<PatchColor>, RenderingError>;
+
+/// All that metrics of one sensor are computed from.
+pub(super) struct Evidence<'a> {
+    pub(super) way: DifferenceConditions,
+    pub(super) reference: Arc<Colors>,
+    /// Differences by each of `Metric::ALL`.
+    pub(super) by_metric: [OnceCell<Result<Vec<f64>, WhyNot>>; Metric::ALL.len()],
+    pub(super) colors: Part<'a, Vec<PatchColor>>,
+    pub(super) locus: Part<'a, LocusDeviation>,
+    pub(super) space: Part<'a, SpaceQuality>,
+    /// By [`INDEX_METHODS`].
+    pub(super) index: [Part<'a, f64>; 2],
+    pub(super) noise: Part<'a, NoiseAmplification>,
+    /// Reason for no gains of raw channels.
+    pub(super) scale: Result<(), WhyNot>,
+    pub(super) snr_db: Part<'a, f64>,
+}
+
+impl<'a> Evidence<'a> {
+    /// Evidence whose parts are missing.
+    pub(super) fn none(way: DifferenceConditions, reference: Arc<Colors>, scale: Result<(), WhyNot>) -> Self {
+        const NONE: Result<f64, WhyNot> = Err(WhyNot::NoPatches);
         Self {
-            patches: patch_differences(of, ask),
-            locus: *ask.ask(&locus),
-            space: ask.ask(&space).ok_or(WhyNot::Dependent),
-            index: (*ask.ask(&index)).map_err(WhyNot::from),
-            noise,
+            way,
+            reference,
+            by_metric: Default::default(),
+            colors: part(|| Err(WhyNot::NoPatches)),
+            locus: part(|| Err(WhyNot::NoPatches)),
+            space: part(|| Err(WhyNot::NoPatches)),
+            index: [part(|| NONE), part(|| NONE)],
+            noise: part(|| Err(WhyNot::NoPatches)),
             scale,
-            snr_db,
+            snr_db: part(|| NONE),
         }
     }
 
-    /// All metrics, in the order of [`CameraMetric::ALL`].
-    pub(super) fn values(&self) -> Vec<Result<f64, WhyNot>> {
-        CameraMetric::ALL.iter().map(|metric| metric.evaluate(self)).collect()
+    pub(super) fn new(of: &'a CameraMetricsQuery, ask: &'a impl Ask) -> Self {
+        let sensor = &of.rendering.sensor;
+        let scale = channel_scale(sensor);
+        let rendering = move || match scale {
+            Err(WhyNot::NoChannels) => Err(WhyNot::NoChannels),
+            _ => (*ask.ask(&of.rendering)).clone().map_err(WhyNot::from),
+        };
+        let colors = |rendering: &RenderingQuery| {
+            let (rendering, patches) = (rendering.clone(), of.patches.clone());
+            ask.ask(&PatchColorsQuery { rendering, patches })
+        };
+        let way = DifferenceConditions::new(&of.rendering, &of.reference);
+        Self {
+            colors: part(move || Ok((*colors(&of.rendering)).clone()?)),
+            locus: part(|| {
+                let (rendering, reference) = (of.rendering.clone(), of.reference.clone());
+                *ask.ask(&LocusDeviationQuery { rendering, reference, temperature: of.temperature })
+            }),
+            space: part(|| {
+                let observer = of.reference.sensor.clone();
+                ask.ask(&SpaceQualityQuery { sensor: sensor.clone(), observer }).ok_or(WhyNot::Dependent)
+            }),
+            index: INDEX_METHODS.map(|method| {
+                part(move || {
+                    let query = MetamerismIndexQuery { sensor: sensor.clone(), conditions: of.index.clone(), method };
+                    Ok((*ask.ask(&query)).as_ref().map_err(|&e| e)?.0)
+                })
+            }),
+            noise: part(move || gains(&rendering()?)),
+            snr_db: part(move || snr_db(&rendering()?, of.electrons, scale)),
+            ..Self::none(way, colors(&of.reference), scale)
+        }
+    }
+
+    /// The metrics that are asked for, in the order of [`CameraMetric::ALL`].
+    pub(super) fn values(&self, wanted: MetricSet) -> Vec<Result<f64, WhyNot>> {
+        let value = |&metric: &CameraMetric| {
+            if wanted.contains(metric) { metric.evaluate(self) } else { Err(WhyNot::NotAsked) }
+        };
+        CameraMetric::ALL.iter().map(value).collect()
+    }
+
+    /// Differences of the patches.
+    pub(super) fn patches(&self) -> Result<Vec<PatchDifferences>, WhyNot> {
+        self.of_pairs(|reference, sample| Ok(self.way.differences(reference, sample)))
+    }
+
+    fn of_pairs<T>(&self, of: impl Fn(&PatchColor, &PatchColor) -> Result<T, WhyNot>) -> Result<Vec<T>, WhyNot> {
+        let reference = (*self.reference).as_ref().map_err(|&e| e)?;
+        let colors = self.colors.as_ref().map_err(|&e| e)?;
+        reference.iter().zip(colors).map(|(reference, sample)| of(reference, sample)).collect()
     }
 
     /// Statistic of the differences by the metric at this place of `Metric::ALL`.
     pub(super) fn statistic(&self, metric: usize, of: Statistic) -> Result<f64, WhyNot> {
-        let patches = self.patches.as_ref().map_err(|&e| e)?;
-        let values = patches.iter().map(|patch| patch.by_metric.get(metric).copied().unwrap_or(Err(WhyNot::NoPatches)));
-        of.over(values.collect::<Result<_, _>>()?).ok_or(WhyNot::NoPatches)
+        let by =
+            |reference: &PatchColor, sample: &PatchColor| self.way.difference(Metric::ALL[metric], reference, sample);
+        let values = self.by_metric[metric].get_or_init(|| self.of_pairs(by));
+        of.over(values.clone()?).ok_or(WhyNot::NoPatches)
     }
 
-    pub(super) fn rms(&self, of: impl Fn(&PatchDifferences) -> Option<f64>) -> Result<f64, WhyNot> {
-        self.mean(|patch| of(patch).map(|value| value * value)).map(f64::sqrt)
+    /// Root mean square of ΔL\*, ΔC\*ab or ΔH\*ab.
+    pub(super) fn rms(&self, component: usize) -> Result<f64, WhyNot> {
+        self.mean(|way, reference, sample| Some(way.lch(reference, sample)?[component].powi(2))).map(f64::sqrt)
     }
 
-    pub(super) fn mean(&self, of: impl Fn(&PatchDifferences) -> Option<f64>) -> Result<f64, WhyNot> {
-        let patches = self.patches.as_ref().map_err(|&e| e)?;
-        let value = |patch: &PatchDifferences| {
+    pub(super) fn mean(
+        &self,
+        of: impl Fn(&DifferenceConditions, &PatchColor, &PatchColor) -> Option<f64>,
+    ) -> Result<f64, WhyNot> {
+        let values = self.of_pairs(|reference, sample| {
             // A component is missing for the reason that differences are.
-            let reason = patch.by_metric.iter().find_map(|value| value.err());
-            of(patch).ok_or(reason.unwrap_or(WhyNot::Difference(DifferenceError::NoChromaticity)))
-        };
-        let values = patches.iter().map(value).collect::<Result<Vec<f64>, _>>()?;
-        Statistic::Mean.over(values).ok_or(WhyNot::NoPatches)
+            let reason = || self.way.differences(reference, sample).by_metric.iter().find_map(|value| value.err());
+            let unknown = WhyNot::Difference(DifferenceError::NoChromaticity);
+            of(&self.way, reference, sample).ok_or_else(|| reason().unwrap_or(unknown))
+        });
+        Statistic::Mean.over(values?).ok_or(WhyNot::NoPatches)
     }
 
     /// Noise gain of one row of matrix ∘ balance.
     pub(super) fn noise_row(&self, row: usize) -> Result<f64, WhyNot> {
         self.scale?;
-        Ok(self.noise?.rows[row])
+        Ok((*self.noise)?.rows[row])
     }
-}
-
-fn patch_differences(of: &CameraMetricsQuery, ask: &impl Ask) -> Result<Vec<PatchDifferences>, WhyNot> {
-    let colors = |rendering: &RenderingQuery| {
-        let (rendering, patches) = (rendering.clone(), of.patches.clone());
-        ask.ask(&PatchColorsQuery { rendering, patches })
-    };
-    let (reference, sample) = (colors(&of.reference), colors(&of.rendering));
-    let reference = (*reference).as_ref().map_err(|&e| e)?;
-    let sample = (*sample).as_ref().map_err(|&e| e)?;
-    let way = DifferenceConditions::new(&of.rendering, &of.reference);
-    Ok(reference.iter().zip(sample).map(|(reference, sample)| way.differences(reference, sample)).collect())
 }
 
 /// Checks that the sensor is a camera whose table does not scale each channel on its own.
@@ -198,24 +262,17 @@ pub(super) fn channel_scale(sensor: &Sensor) -> Result<(), WhyNot> {
     }
 }
 
-fn noise(of: &CameraMetricsQuery, scale: Result<(), WhyNot>, ask: &impl Ask) -> Noise {
-    let rendering = ask.ask(&of.rendering);
-    match (&*rendering, scale) {
-        (_, Err(WhyNot::NoChannels)) => (Err(WhyNot::NoChannels), Err(WhyNot::NoChannels)),
-        (Err(error), _) => (Err((*error).into()), Err((*error).into())),
-        (Ok(rendering), _) => noise_of(rendering, of.electrons, scale),
-    }
+/// Noise gains.
+pub(super) fn gains(rendering: &Rendering) -> Result<NoiseAmplification, WhyNot> {
+    NoiseAmplification::new(rendering).ok_or(WhyNot::Rendering(RenderingError::NoWhite))
 }
 
-/// Noise gains, and the signal-to-noise ratio of a gray in decibels.
-type Noise = (Result<NoiseAmplification, WhyNot>, Result<f64, WhyNot>);
-
-pub(super) fn noise_of(rendering: &Rendering, electrons: Option<Electrons>, scale: Result<(), WhyNot>) -> Noise {
-    let gains = NoiseAmplification::new(rendering).ok_or(WhyNot::Rendering(RenderingError::NoWhite));
-    let snr = match electrons {
-        _ if scale.is_err() => scale.map(|()| 0.0),
-        None => Err(WhyNot::NoElectrons),
-        Some(electrons) => gray_snr_db(rendering, electrons).ok_or(WhyNot::Rendering(RenderingError::NoWhite)),
-    };
-    (gains, snr)
+/// Signal-to-noise ratio of a gray in decibels.
+pub(super) fn snr_db(
+    rendering: &Rendering,
+    electrons: Option<Electrons>,
+    scale: Result<(), WhyNot>,
+) -> Result<f64, WhyNot> {
+    scale?;
+    gray_snr_db(rendering, electrons.ok_or(WhyNot::NoElectrons)?).ok_or(WhyNot::Rendering(RenderingError::NoWhite))
 }

@@ -41,8 +41,8 @@ impl Query for CameraMetricsQuery {
 
     fn answer(&self, ask: &impl Ask) -> CameraMetrics {
         let own = Evidence::new(self, ask);
-        let values = own.values();
-        let patches = own.patches.unwrap_or_default();
+        let values = own.values(self.wanted);
+        let patches = own.patches().unwrap_or_default();
         CameraMetrics { values, worst: differences::worst(&patches), patches }
     }
 }

@@ -1,16 +1,19 @@
 //! Metrics of a camera whose curves deviate a little: from its linear responses alone, which deviate as the curves do.
 
-use super::differences::{DifferenceConditions, PatchDifferences};
-use super::evidence::{Evidence, IndexSamplesQuery, ReferenceLocusQuery, channel_scale, noise_of};
+use super::differences::DifferenceConditions;
+use super::evidence::{
+    Evidence, INDEX_METHODS, IndexSamplesQuery, MetamerismIndexQuery, ReferenceLocusQuery, channel_scale, gains, part,
+    snr_db,
+};
 use super::table::CameraMetric;
 use super::value::{CameraMetricsQuery, IndexConditions, WhyNot};
 use crate::ask::{Ask, Query, Shared};
 use crate::patches::{FitTargetsQuery, PatchColor, PatchColorsQuery, color};
 use chromascope_color::camera::curve_spread::{Deviation, SITE_RANGE, SITES, site_curve};
-use chromascope_color::camera::quality::{IndexSamples, MetamerismIndex, SpaceQuality, curves};
+use chromascope_color::camera::quality::{IndexSamples, ObserverSpace, SpaceQuality, curves};
 use chromascope_color::camera::{FitTargets, LocusDeviation, ReferenceLocus, Rendering, RenderingError};
+use chromascope_color::correction::RgbTransform;
 use chromascope_color::correction::minimize::Refit;
-use chromascope_color::correction::{CorrectionMethod, RgbTransform};
 use chromascope_color::light::RadiationConstants;
 use chromascope_color::light::planckian::black_body;
 use chromascope_color::patch_set::PatchSet;
@@ -19,6 +22,7 @@ use chromascope_color::spectral::{GridSpectrum, Sensor};
 use chromascope_color::units::Kelvin;
 use chromascope_math::dot::{dot, dot_each};
 use glam::{DMat3, DVec3};
+use std::cell::LazyCell;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -51,8 +55,9 @@ pub(super) struct Stimuli {
     patches: Range<usize>,
     training: Range<usize>,
     index: Range<usize>,
-    sites: Vec<[f64; COUNT]>,
-    matching: [Vec<f64>; 3],
+    /// First place and values of the curve of each site.
+    sites: Vec<(usize, Vec<f64>)>,
+    observer: Option<ObserverSpace>,
 }
 
 impl StimuliQuery {
@@ -89,9 +94,14 @@ impl Query for StimuliQuery {
         let sites: Vec<[f64; COUNT]> = (0..SITES).map(site_curve).collect();
         let weighted: Vec<[f64; COUNT]> = sites.iter().map(trapezoid).collect();
         let of_sites = |spectrum: &[f64]| padded(weighted.iter().map(|curve| dot(curve, spectrum)));
-        let matching = curves(&self.observer);
+        let observer = ObserverSpace::new(&self.observer);
         let of_sites = spectra.iter().map(|spectrum| of_sites(spectrum)).collect();
-        Stimuli { spectra, of_sites, patches, training, index, sites, matching }
+        let sites = sites.iter().map(|curve| {
+            let first = curve.iter().position(|value| *value != 0.0).unwrap_or(COUNT);
+            let last = curve.iter().rposition(|value| *value != 0.0).map_or(first, |last| last + 1);
+            (first, curve[first..last].to_vec())
+        });
+        Stimuli { sites: sites.collect(), spectra, of_sites, patches, training, index, observer }
     }
 }
 
@@ -163,8 +173,13 @@ impl<'a> Perturbed<'a> {
             raw,
         };
         found.refit = found.near(rendering);
-        let samples = found.index_samples(&found.raw);
-        found.index_refit = (*found.index).as_ref().ok().and_then(|index| index.refit(&samples));
+        if CameraMetric::by_id("metamerism-index-min").is_some_and(|by| of.wanted.contains(by)) {
+            let conditions = of.index.clone();
+            let query = MetamerismIndexQuery { sensor: sensor.clone(), conditions, method: INDEX_METHODS[1] };
+            let (samples, fitted) = (found.index_samples(&found.raw), ask.ask(&query));
+            let index = (*found.index).as_ref().ok().zip((*fitted).as_ref().ok());
+            found.index_refit = index.and_then(|(index, (_, fitted))| index.refit(&samples, fitted));
+        }
         Some(found)
     }
 
@@ -188,14 +203,14 @@ impl<'a> Perturbed<'a> {
         };
         let raw: Vec<DVec3> =
             self.raw.iter().zip(&self.stimuli.of_sites).map(|(own, sites)| *own + shift(sites)).collect();
-        self.evidence(&raw, self.space(deviation)).values()
+        self.metrics(&raw, || self.space(deviation))
     }
 
     /// Metrics through another table of the camera.
     pub(super) fn values_through(&self, sensor: &Sensor) -> Vec<Result<f64, WhyNot>> {
         let raw: Vec<DVec3> =
             self.stimuli.spectra.iter().map(|spectrum| DVec3::from_array(sensor.integrate(spectrum))).collect();
-        self.evidence(&raw, SpaceQuality::of(&curves(sensor), &self.stimuli.matching)).values()
+        self.metrics(&raw, || self.stimuli.observer.as_ref()?.quality(&curves(sensor)))
     }
 
     /// Some spectra that the camera's responses to all but determine its metrics: its own curves, the observer's, single stimuli and some of
@@ -204,21 +219,28 @@ impl<'a> Perturbed<'a> {
         let (single, patches) = self.stimuli.spectra.split_at(SINGLE);
         let patches = patches.iter().step_by(patches.len().div_ceil(PATCHES).max(1));
         let stimuli = single.iter().chain(patches).map(|spectrum| spectrum.to_vec());
-        self.curves.iter().chain(&self.stimuli.matching).cloned().chain(stimuli).collect()
+        let observer = self.stimuli.observer.iter().flat_map(|observer| &observer.curves);
+        self.curves.iter().chain(observer).cloned().chain(stimuli).collect()
     }
 
-    fn evidence(&self, raw: &[DVec3], space: Option<SpaceQuality>) -> Evidence {
-        let (patches, locus, (noise, snr_db)) = match self.rendering(raw) {
-            Ok(rendering) => (
-                self.patches(&rendering, raw),
-                self.locus(&rendering, raw[BLACKBODY]),
-                noise_of(&rendering, self.of.electrons, self.scale),
-            ),
-            Err(error) => (Err(error.into()), Err(error.into()), (Err(error.into()), Err(error.into()))),
+    fn metrics(&self, raw: &[DVec3], space: impl Fn() -> Option<SpaceQuality>) -> Vec<Result<f64, WhyNot>> {
+        let rendering = LazyCell::new(|| self.rendering(raw));
+        let rendering = || rendering.as_ref().map_err(|&e| WhyNot::from(e));
+        let samples = LazyCell::new(|| self.index_samples(raw));
+        let patches = &raw[self.stimuli.patches.clone()];
+        let evidence = Evidence {
+            colors: part(|| rendering().map(|shown| patches.iter().map(|raw| color(shown, *raw)).collect())),
+            locus: part(|| self.locus(rendering()?, raw[BLACKBODY])),
+            space: part(|| space().ok_or(WhyNot::Dependent)),
+            index: [0, 1].map(|by| {
+                let samples = &samples;
+                part(move || Ok(self.index(by, samples)?))
+            }),
+            noise: part(|| gains(rendering()?)),
+            snr_db: part(|| snr_db(rendering()?, self.of.electrons, self.scale)),
+            ..Evidence::none(self.way, self.reference.clone(), self.scale)
         };
-        let index = self.index(raw).map_err(WhyNot::from);
-        let space = space.ok_or(WhyNot::Dependent);
-        Evidence { patches, locus, space, index, noise, scale: self.scale, snr_db }
+        evidence.values(self.of.wanted)
     }
 
     fn rendering(&self, raw: &[DVec3]) -> Result<Rendering, RenderingError> {
@@ -239,12 +261,6 @@ impl<'a> Perturbed<'a> {
         Rendering::by_fit(targets, transform, white, integrals, (self.conditioning, true))
     }
 
-    fn patches(&self, rendering: &Rendering, raw: &[DVec3]) -> Result<Vec<PatchDifferences>, WhyNot> {
-        let reference = (*self.reference).as_ref().map_err(|&e| e)?;
-        let pairs = reference.iter().zip(&raw[self.stimuli.patches.clone()]);
-        Ok(pairs.map(|(reference, raw)| self.way.differences(reference, &color(rendering, *raw))).collect())
-    }
-
     fn locus(&self, rendering: &Rendering, raw: DVec3) -> Result<LocusDeviation, WhyNot> {
         self.way.comparable?;
         let locus = (*self.locus).as_ref().map_err(|&e| e)?;
@@ -252,25 +268,25 @@ impl<'a> Perturbed<'a> {
         locus.deviation(self.of.temperature, color).ok_or(WhyNot::NoLocus)
     }
 
-    fn index(&self, raw: &[DVec3]) -> Result<MetamerismIndex, RenderingError> {
+    fn index(&self, by: usize, samples: &[DVec3]) -> Result<f64, RenderingError> {
         let index = (*self.index).as_ref().map_err(|&e| e)?;
-        let samples = self.index_samples(raw);
-        let of = |transform: &RgbTransform| index.of(&samples, transform).ok_or(RenderingError::NoWhite);
-        let refit = self.index_refit.as_ref().and_then(|refit| refit.matrix(&samples));
-        Ok(MetamerismIndex {
-            least_squares: of(&index.fit(&samples, CorrectionMethod::LeastSquares)?)?,
-            min_delta_e: of(&RgbTransform::Matrix(refit.ok_or(RenderingError::NoWhite)?))?,
-        })
+        let transform = if by == 0 {
+            index.fit(samples, INDEX_METHODS[0])?
+        } else {
+            let refit = self.index_refit.as_ref().and_then(|refit| refit.matrix(samples));
+            RgbTransform::Matrix(refit.ok_or(RenderingError::NoWhite)?)
+        };
+        index.of(samples, &transform).ok_or(RenderingError::NoWhite)
     }
 
     fn space(&self, deviation: &Deviation) -> Option<SpaceQuality> {
         let mut curves = self.curves.clone();
         for (curve, deviation) in curves.iter_mut().zip(deviation) {
-            for (site, by) in self.stimuli.sites.iter().zip(deviation) {
-                curve.iter_mut().zip(site).for_each(|(value, site)| *value += by * site);
+            for ((first, site), by) in self.stimuli.sites.iter().zip(deviation) {
+                curve[*first..].iter_mut().zip(site).for_each(|(value, site)| *value += by * site);
             }
         }
-        SpaceQuality::of(&curves, &self.stimuli.matching)
+        self.stimuli.observer.as_ref()?.quality(&curves)
     }
 
     /// What each metric may be off by because of the ratio of the channels, its relative standard uncertainty being the same for red and
@@ -279,10 +295,12 @@ impl<'a> Perturbed<'a> {
         let Ok(rendering) = self.rendering(&self.raw) else { return vec![0.0; CameraMetric::ALL.len()] };
         let values = |factor: DVec3| -> Vec<Result<f64, WhyNot>> {
             let scaled = Rendering { white_integrals: rendering.white_integrals * factor, ..rendering.clone() };
-            let (noise, snr_db) = noise_of(&scaled, self.of.electrons, self.scale);
-            let none = WhyNot::NoPatches;
-            let (patches, locus, space, index) = (Err(none), Err(none), Err(none), Err(none));
-            Evidence { patches, locus, space, index, noise, scale: self.scale, snr_db }.values()
+            let evidence = Evidence {
+                noise: part(|| gains(&scaled)),
+                snr_db: part(|| snr_db(&scaled, self.of.electrons, self.scale)),
+                ..Evidence::none(self.way, self.reference.clone(), self.scale)
+            };
+            evidence.values(self.of.wanted)
         };
         let ends = [DVec3::X, DVec3::Z].map(|channel| [relative, -relative].map(|step| values((channel * step).exp())));
         let part = |at: usize| {

@@ -1,6 +1,6 @@
 //! The table of metrics, and their ranks, which respect the uncertainty.
 
-use super::differences::Statistic;
+use super::differences::{DifferenceConditions, Statistic};
 use super::evidence::Evidence;
 use super::value::{MetricUncertainty, MetricValue, WhyNot};
 use chromascope_color::colorimetry::Metric;
@@ -76,7 +76,7 @@ pub struct CameraMetric {
     /// Direction in which values improve.
     pub better: Better,
     pub(super) place: usize,
-    evaluate: fn(&Evidence) -> Result<f64, WhyNot>,
+    evaluate: fn(&Evidence<'_>) -> Result<f64, WhyNot>,
 }
 
 eq_by!(CameraMetric, |metric| metric.id);
@@ -123,7 +123,7 @@ const SINGLE: [CameraMetric; 17] = [
         column: "delta_l_rms",
         label: "Lightness differences of the patches, root mean square",
         symbol: "ΔL* RMS",
-        evaluate: |evidence| evidence.rms(|patch| patch.lch.map(|[l, _, _]| l)),
+        evaluate: |evidence| evidence.rms(0),
         ..DIFFERENCE
     },
     CameraMetric {
@@ -131,7 +131,7 @@ const SINGLE: [CameraMetric; 17] = [
         column: "delta_c_rms",
         label: "Chroma differences of the patches, root mean square",
         symbol: "ΔC*ab RMS",
-        evaluate: |evidence| evidence.rms(|patch| patch.lch.map(|[_, c, _]| c)),
+        evaluate: |evidence| evidence.rms(1),
         ..DIFFERENCE
     },
     CameraMetric {
@@ -139,7 +139,7 @@ const SINGLE: [CameraMetric; 17] = [
         column: "delta_h_rms",
         label: "Hue differences of the patches, root mean square",
         symbol: "ΔH*ab RMS",
-        evaluate: |evidence| evidence.rms(|patch| patch.lch.map(|[_, _, h]| h)),
+        evaluate: |evidence| evidence.rms(2),
         ..DIFFERENCE
     },
     CameraMetric {
@@ -148,7 +148,7 @@ const SINGLE: [CameraMetric; 17] = [
         label: "Angle between the patches' linear sRGB vectors, mean",
         symbol: "RGB angle",
         unit: "°",
-        evaluate: |evidence| evidence.mean(|patch| patch.angle_deg),
+        evaluate: |evidence| evidence.mean(DifferenceConditions::angle_deg),
         ..DIFFERENCE
     },
     CameraMetric {
@@ -158,7 +158,7 @@ const SINGLE: [CameraMetric; 17] = [
         symbol: "CCT error",
         unit: "K",
         decimals: 0,
-        evaluate: |evidence| evidence.locus?.cct_error_k.ok_or(WhyNot::NoCct),
+        evaluate: |evidence| (*evidence.locus)?.cct_error_k.ok_or(WhyNot::NoCct),
         ..LOCUS
     },
     CameraMetric {
@@ -166,7 +166,7 @@ const SINGLE: [CameraMetric; 17] = [
         column: "locus_error_along",
         label: "Locus error along the reference's locus, positive towards higher temperatures",
         symbol: "Δu′v′ along",
-        evaluate: |evidence| Ok(evidence.locus?.along),
+        evaluate: |evidence| Ok((*evidence.locus)?.along),
         ..LOCUS
     },
     CameraMetric {
@@ -174,10 +174,10 @@ const SINGLE: [CameraMetric; 17] = [
         column: "locus_error_off",
         label: "Locus error across the reference's locus, positive towards green",
         symbol: "Δu′v′ off",
-        evaluate: |evidence| Ok(evidence.locus?.off),
+        evaluate: |evidence| Ok((*evidence.locus)?.off),
         ..LOCUS
     },
-    CameraMetric { evaluate: |evidence| Ok(evidence.space?.vora), ..VORA },
+    CameraMetric { evaluate: |evidence| Ok((*evidence.space)?.vora), ..VORA },
     CameraMetric {
         id: "luther",
         column: "luther_residual",
@@ -185,7 +185,7 @@ const SINGLE: [CameraMetric; 17] = [
         symbol: "Luther",
         decimals: 3,
         better: Better::Lower,
-        evaluate: |evidence| Ok(evidence.space?.luther),
+        evaluate: |evidence| Ok((*evidence.space)?.luther),
         ..VORA
     },
     CameraMetric {
@@ -194,7 +194,7 @@ const SINGLE: [CameraMetric; 17] = [
         label: "Sensitivity metamerism index as in ISO 17321, least-squares fit",
         symbol: "SMI",
         decimals: 1,
-        evaluate: |evidence| Ok(evidence.index?.least_squares),
+        evaluate: |evidence| *evidence.index[0],
         ..VORA
     },
     CameraMetric {
@@ -203,7 +203,7 @@ const SINGLE: [CameraMetric; 17] = [
         label: "Sensitivity metamerism index as in ISO 17321, minimum-ΔE*ab fit",
         symbol: "SMI min ΔE",
         decimals: 1,
-        evaluate: |evidence| Ok(evidence.index?.min_delta_e),
+        evaluate: |evidence| *evidence.index[1],
         ..VORA
     },
     CameraMetric {
@@ -212,7 +212,7 @@ const SINGLE: [CameraMetric; 17] = [
         label: "Quality factor (Neugebauer) of the worst channel",
         symbol: "q-factor",
         decimals: 3,
-        evaluate: |evidence| Ok(evidence.space?.factors.into_iter().fold(f64::INFINITY, f64::min)),
+        evaluate: |evidence| Ok((*evidence.space)?.factors.into_iter().fold(f64::INFINITY, f64::min)),
         ..VORA
     },
     CameraMetric {
@@ -239,13 +239,13 @@ const SINGLE: [CameraMetric; 17] = [
         evaluate: |evidence| evidence.noise_row(2),
         ..NOISE
     },
-    CameraMetric { evaluate: |evidence| Ok(evidence.noise?.psi), ..NOISE },
+    CameraMetric { evaluate: |evidence| Ok((*evidence.noise)?.psi), ..NOISE },
     CameraMetric {
         id: "condition",
         column: "condition_number",
         label: "Condition number of matrix ∘ balance",
         symbol: "cond",
-        evaluate: |evidence| evidence.scale.and(Ok(evidence.noise?.condition)),
+        evaluate: |evidence| evidence.scale.and(Ok((*evidence.noise)?.condition)),
         ..NOISE
     },
 ];
@@ -258,7 +258,7 @@ const SNR: CameraMetric = CameraMetric {
     unit: "dB",
     decimals: 1,
     better: Better::Higher,
-    evaluate: |evidence| evidence.snr_db,
+    evaluate: |evidence| *evidence.snr_db,
     ..NOISE
 };
 
@@ -322,8 +322,30 @@ impl CameraMetric {
         Self::ALL.iter().copied().find(|metric| metric.id == id)
     }
 
-    pub(super) fn evaluate(self, evidence: &Evidence) -> Result<f64, WhyNot> {
+    pub(super) fn evaluate(self, evidence: &Evidence<'_>) -> Result<f64, WhyNot> {
         (self.evaluate)(evidence)
+    }
+}
+
+/// Metrics that a question asks for: nothing is computed for the others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct MetricSet(u64);
+
+const _: () = assert!(COUNT <= 64, "one bit each");
+
+impl MetricSet {
+    /// All metrics.
+    pub const ALL: Self = Self(u64::MAX);
+
+    /// True for a metric that is asked for.
+    pub const fn contains(self, metric: CameraMetric) -> bool {
+        self.0 >> metric.place & 1 == 1
+    }
+}
+
+impl FromIterator<CameraMetric> for MetricSet {
+    fn from_iter<I: IntoIterator<Item = CameraMetric>>(metrics: I) -> Self {
+        Self(metrics.into_iter().fold(0, |bits, metric| bits | 1 << metric.place))
     }
 }
 

@@ -1,5 +1,6 @@
 //! Conditions that metrics are computed under, their values with uncertainties, and reasons for none.
 
+use super::table::MetricSet;
 use crate::ask::Shared;
 use crate::compare::DifferenceError;
 use crate::patches::RenderingQuery;
@@ -36,6 +37,8 @@ pub enum WhyNot {
     ChannelScale,
     #[error("the full-well capacity is not given")]
     NoElectrons,
+    #[error("the metric was not asked for")]
+    NotAsked,
 }
 
 /// Origin of an uncertainty.
@@ -145,6 +148,8 @@ pub struct CameraMetricsQuery {
     pub index: IndexConditions,
     /// The camera's full-well capacity and read noise, if known.
     pub electrons: Option<Electrons>,
+    /// Metrics that are computed; the others are [`WhyNot::NotAsked`].
+    pub wanted: MetricSet,
 }
 
 /// Conditions of the sensitivity metamerism index: by ISO 17321-1 the CIE 1931 observer, D55 and the 18 chromatic patches of the

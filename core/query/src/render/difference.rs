@@ -9,8 +9,10 @@ use chromascope_color::camera::RenderingError;
 use chromascope_color::colorimetry::Metric;
 use chromascope_color::spectral::GridSpectrum;
 use chromascope_math::quantile::quantile;
+use chromascope_mesh::Part;
 use chromascope_render::render::ColorimetricScale;
 use chromascope_render::render::develop::signal_differences;
+use std::borrow::Cow;
 use std::sync::Arc;
 
 /// L* of the reference above which samples count in [`BrightSamples`].
@@ -40,7 +42,7 @@ pub struct Difference {
     pub stride: usize,
     /// Differences at those.
     pub map: Vec<f32>,
-    /// Mean over all lit samples: as dark samples differ little, it falls with the share of them.
+    /// Mean over all lit samples of the mesh: as dark samples differ little, it falls with the share of them.
     pub mean: f64,
     /// Largest.
     pub max: f64,
@@ -94,7 +96,7 @@ impl Query for DifferenceQuery {
         else {
             return Ok(None);
         };
-        let Some((map, lightness)) = signal_differences(
+        let Some((map, mut lightness)) = signal_differences(
             self.metric,
             [image.signals(), reference_image.signals()],
             scales.each_ref(),
@@ -103,14 +105,24 @@ impl Query for DifferenceQuery {
         ) else {
             return Ok(None);
         };
-        let mean = map.iter().map(|&d| f64::from(d)).sum::<f64>() / map.len().max(1) as f64;
-        let max = f64::from(map.iter().copied().fold(0.0, f32::max));
+        // Of the mesh alone: what stands about it is in the map.
+        let parts = || image.placed().parts().iter().step_by(self.stride);
+        lightness.iter_mut().zip(parts()).filter(|(_, part)| !part.is_subject()).for_each(|(value, _)| *value = 0.0);
+        let own: Cow<'_, [f32]> = if image.placed().parts().is_empty() {
+            Cow::Borrowed(&map)
+        } else {
+            map.iter().zip(parts()).filter(|(_, part)| part.is_subject()).map(|(&value, _)| value).collect()
+        };
+        let mean = own.iter().map(|&d| f64::from(d)).sum::<f64>() / own.len().max(1) as f64;
+        let max = f64::from(own.iter().copied().fold(0.0, f32::max));
+        drop(own);
         let facing = |material: &GridSpectrum| {
             let flat = |of, rendering| patch_colors(of, rendering, std::iter::once(material));
             let (sample, reference) = (flat(&self.rendering, rendering), flat(&self.exposure.reference, reference));
             compare::difference(self.metric, &reference[0], &sample[0]).ok()
         };
-        let garment = self.image.garment.as_ref().and_then(|garment| facing(garment));
+        let garment = self.image.parts.iter().find(|(part, _)| *part == Part::Garment);
+        let garment = garment.and_then(|(_, garment)| facing(garment));
         let (facing, bright) = (facing(&self.exposure.reflectance), BrightSamples::new(&map, &lightness));
         Ok(Some(Arc::new(Difference { stride: self.stride, map, mean, max, facing, garment, bright })))
     }

@@ -1,17 +1,19 @@
 //! Pictures side by side: one exposure for all, differences to the reference.
 
 use super::difference::{Difference, DifferenceQuery};
-use super::{CameraImageQuery, ShadingQuery, SpectralWeightsQuery};
+use super::{CameraImageQuery, Parts, ShadingQuery, SpectralWeightsQuery};
 use crate::ask::{Ask, Query, Shared};
 use crate::patches::RenderingQuery;
 use chromascope_color::camera::RenderingError;
 use chromascope_color::colorimetry::{Metric, Xyz};
 use chromascope_color::spectral::GridSpectrum;
+use chromascope_mesh::Part;
 use chromascope_render::reflectance::power::factors;
 use chromascope_render::reflectance::{Geometry, Normalization, Specular, Surface, wavelength_power};
 use chromascope_render::render::develop::develop;
+use chromascope_render::render::exaggerate::{Exaggeration, develop_exaggerated};
 use chromascope_render::render::{
-    CameraImage, Development, GeometryCounts, GeometryImage, Picture, ShadingCounts, SpectralWeights,
+    CameraImage, ColorimetricScale, Development, GeometryCounts, GeometryImage, Picture, ShadingCounts, SpectralWeights,
 };
 use glam::DVec3;
 use std::sync::Arc;
@@ -36,6 +38,8 @@ pub struct ExposureQuery {
     pub reading: Normalization,
     /// The light's angular radius in radians, as bits.
     pub angular_radius: u64,
+    /// True if a white that faces the light is to be the screen's: with a chart in the picture, which then shows colors as swatches do.
+    pub by_white: bool,
 }
 
 /// Reference of exposure and of color measurements.
@@ -45,7 +49,7 @@ pub struct ExposureReference {
     pub material: Xyz,
     /// Y of a white of the same roughness.
     pub white: f64,
-    /// Y that is exposed for: that of the material, but not below [`LEAST_FACING`] of what it would be if it scattered evenly, where the
+    /// Y that is shown at [`MID_LUMINANCE`]: by a white 0.4 of its own; else that of the material, but not below [`LEAST_FACING`] of what it would be if it scattered evenly, where the
     /// normalization makes P a reflectance.
     pub exposed: f64,
 }
@@ -74,8 +78,13 @@ impl Query for ExposureQuery {
         let xyz = |measure: &SpectralWeights| rendering.xyz(rendering.white * self.signals(measure, white));
         let (facing, is_reflectance) = (xyz(material), wavelength_power(self.reading) != 0);
         let even = rendering.xyz(rendering.white * DVec3::from_array(material.totals())).y;
-        let exposed = if is_reflectance { facing.y.max(LEAST_FACING * even) } else { facing.y };
-        Ok(ExposureReference { material: facing, white: xyz(white).y, exposed })
+        let facing_white = xyz(white).y;
+        let exposed = match (self.by_white, is_reflectance) {
+            (true, _) => MID_LUMINANCE * if is_reflectance { facing_white.max(LEAST_FACING) } else { facing_white },
+            (false, true) => facing.y.max(LEAST_FACING * even),
+            (false, false) => facing.y,
+        };
+        Ok(ExposureReference { material: facing, white: facing_white, exposed })
     }
 }
 
@@ -107,6 +116,47 @@ pub struct PictureQuery {
     pub exposure: ExposureQuery,
     /// Background in linear sRGB as bits; none leaves it transparent.
     pub background: Option<[u32; 3]>,
+    /// Reference from which its differences are multiplied; none shows them as they are.
+    pub exaggerated: Option<Exaggerated>,
+}
+
+/// Reference of a picture whose differences from it are multiplied.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Exaggerated {
+    /// The reference's signals.
+    pub image: CameraImageQuery,
+    /// Their balance and color transform.
+    pub rendering: RenderingQuery,
+    /// The factor, as bits.
+    pub factor: u64,
+}
+
+impl PictureQuery {
+    /// The picture with its differences multiplied; samples are clipped where they are in the picture as it is.
+    fn exaggerated(&self, of: &Exaggerated, ask: &impl Ask) -> <Self as Query>::Answer {
+        let plain = ask.ask(&Self { exaggerated: None, ..self.clone() });
+        let (facing, own) = (ask.ask(&self.exposure), ask.ask(&self.rendering));
+        let (reference, images) = (ask.ask(&of.rendering), [&self.image, &of.image].map(|image| ask.ask(image)));
+        let facing = (*facing).as_ref().map_err(|&e| e)?;
+        let [own, reference] = [&own, &reference].map(|rendering| (**rendering).as_ref().map_err(|&e| e));
+        let (own, reference) = (own?, reference?);
+        let [image, of_reference] = [&images[0], &images[1]].map(|image| (**image).as_ref().map_err(|&e| e));
+        let Some(((image, of_reference), plain)) = image?.as_ref().zip(of_reference?.as_ref()).zip((*plain).clone()?)
+        else {
+            return Ok(None);
+        };
+        let scales = [own, reference].map(|rendering| ColorimetricScale::new(rendering, facing.white));
+        let how = Exaggeration {
+            scales: [&scales[0], &scales[1]],
+            srgb_from_xyz: own.srgb_from_xyz,
+            brightness: facing.factor(f64::from_bits(self.ev)) * facing.white,
+            factor: f64::from_bits(of.factor),
+            background: self.background.map(|color| color.map(f32::from_bits)),
+        };
+        let signals = [image.signals(), of_reference.signals()];
+        let picture = develop_exaggerated(image.placed(), signals, &how, &ask.stop());
+        Ok(picture.map(|picture| Arc::new(Picture { clipped: plain.clipped, ..picture })))
+    }
 }
 
 impl Query for PictureQuery {
@@ -119,6 +169,9 @@ impl Query for PictureQuery {
     }
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        if let Some(of) = &self.exaggerated {
+            return self.exaggerated(of, ask);
+        }
         let facing = ask.ask(&self.exposure);
         let facing = (*facing).as_ref().map_err(|&e| e)?;
         let rendering = ask.ask(&self.rendering);
@@ -138,8 +191,8 @@ pub struct PicturesQuery {
     pub shading: ShadingQuery,
     /// The material.
     pub reflectance: Shared<GridSpectrum>,
-    /// Reflectance of the mesh's garment; none for that of the rest.
-    pub garment: Option<Shared<GridSpectrum>>,
+    /// Reflectances of parts of the mesh, ascending by part; others have that of the body.
+    pub parts: Parts,
     /// The reference; exposure and differences go by it.
     pub reference: RenderingQuery,
     /// All visible sensors, the reference among them or not.
@@ -150,6 +203,8 @@ pub struct PicturesQuery {
     pub background: Option<[u32; 3]>,
     /// Metric of the differences from the reference.
     pub metric: Metric,
+    /// Factor on the pictures' differences from the reference as bits; numbers and maps stay as they are.
+    pub exaggeration: u64,
     /// About how many samples are compared with the reference; none compares nothing.
     pub compared_samples: Option<usize>,
 }
@@ -182,6 +237,7 @@ impl PicturesQuery {
             surface: self.shading.surface,
             reading: self.shading.reading,
             angular_radius: self.shading.geometry.lighting.angular_radius().to_bits(),
+            by_white: self.parts.iter().any(|(part, _)| matches!(part, Part::Patch(_))),
         }
     }
 
@@ -193,7 +249,7 @@ impl PicturesQuery {
             reflectance: self.reflectance.clone(),
             reading: self.shading.reading,
         };
-        CameraImageQuery { shading: self.shading.clone(), measure, garment: self.garment.clone() }
+        CameraImageQuery { shading: self.shading.clone(), measure, parts: self.parts.clone() }
     }
 
     /// A source's picture.
@@ -204,6 +260,13 @@ impl PicturesQuery {
             ev: self.ev,
             exposure: self.exposure(),
             background: self.background,
+            exaggerated: (f64::from_bits(self.exaggeration) != 1.0 && *rendering != self.reference).then(|| {
+                Exaggerated {
+                    image: self.image(&self.reference),
+                    rendering: self.reference.clone(),
+                    factor: self.exaggeration,
+                }
+            }),
         }
     }
 

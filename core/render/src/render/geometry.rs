@@ -8,13 +8,13 @@ use super::visibility::{Hit, RasterSize, Rays, Visibility};
 use crate::reflectance::Geometry;
 use crate::scene::{Lighting, PlacedLight};
 use chromascope_math::array::each;
-use chromascope_mesh::{Mesh, ShadowTree};
+use chromascope_mesh::{Mesh, Part, ShadowTree};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// The side of the block of samples that share a coarse shadow ray.
+/// The side of the block of samples that share coarse shadow rays.
 const BLOCK: usize = 4;
 
 /// Samples that one task works on.
@@ -34,7 +34,7 @@ pub const THIN: f64 = 4e-3;
 pub enum Shadows {
     /// None: light passes through everything.
     Off,
-    /// One ray for each 4 × 4 samples: while something moves.
+    /// One ray for each corner of 4 × 4 samples, and for each sample where these differ: while something moves.
     Coarse,
     /// One ray a sample.
     #[default]
@@ -105,12 +105,13 @@ pub struct LitSamples {
     size: RasterSize,
     samples: Vec<u32>,
     seen: Vec<u32>,
+    parts: Vec<Part>,
 }
 
 impl LitSamples {
     /// Positions of samples, both lists ascending.
     pub(super) fn new(size: RasterSize, samples: Vec<u32>, seen: Vec<u32>) -> Self {
-        Self { size, samples, seen }
+        Self { size, samples, seen, parts: Vec::new() }
     }
 
     /// The picture's size.
@@ -121,6 +122,16 @@ impl LitSamples {
     /// The places of the lit samples, ascending, row by row from the top left.
     pub fn samples(&self) -> &[u32] {
         &self.samples
+    }
+
+    /// The part of the mesh that each lit sample sees; empty where all see the body.
+    pub fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+
+    /// The part of the mesh that a lit sample sees, by its index.
+    pub fn part(&self, index: usize) -> Part {
+        self.parts.get(index).copied().unwrap_or_default()
     }
 
     /// The places of all samples that see a triangle, ascending.
@@ -197,9 +208,9 @@ impl GeometryImage {
         let scene = Scene { mesh, visibility, rays: visibility.rays(), light, disk, shadows, reach };
         // Rows whose samples share shadow rays together.
         let band = BLOCK * size.columns();
-        let bands: Vec<Part> = (0..visibility.hits().len().div_ceil(band))
+        let bands: Vec<Band> = (0..visibility.hits().len().div_ceil(band))
             .into_par_iter()
-            .map(|index| if stop.is_set() { Part::default() } else { scene.part(index * band, band) })
+            .map(|index| if stop.is_set() { Band::default() } else { scene.part(index * band, band) })
             .collect();
         if stop.is_set() {
             return None;
@@ -215,7 +226,9 @@ impl GeometryImage {
             seen.extend(part.seen);
             counts = counts.plus(part.counts);
         }
-        let placed = Arc::new(LitSamples { size, samples, seen });
+        let part = |&sample: &u32| mesh.part(visibility.hits()[sample as usize].triangle);
+        let parts = if mesh.parts().is_empty() { Vec::new() } else { samples.iter().map(part).collect() };
+        let placed = Arc::new(LitSamples { size, samples, seen, parts });
         Some(Self { placed, angles, angular_radius: disk, reach, counts })
     }
 
@@ -256,7 +269,8 @@ impl GeometryImage {
         let samples: Vec<u32> = self.samples().iter().copied().step_by(stride).collect();
         let angles = self.angles.iter().copied().step_by(stride).collect();
         let counts = GeometryCounts { lit: samples.len() as u64, ..self.counts };
-        let placed = Arc::new(LitSamples { size: self.placed.size, samples, seen: self.placed.seen.clone() });
+        let parts = self.placed.parts.iter().copied().step_by(stride).collect();
+        let placed = Arc::new(LitSamples { size: self.placed.size, samples, seen: self.placed.seen.clone(), parts });
         Self { placed, angles, counts, ..*self }
     }
 
@@ -267,7 +281,7 @@ impl GeometryImage {
 }
 
 #[derive(Default)]
-struct Part {
+struct Band {
     samples: Vec<u32>,
     angles: Vec<Angles>,
     seen: Vec<u32>,
@@ -317,19 +331,26 @@ fn corners(mesh: &Mesh, hit: Hit) -> ([DVec3; 3], [DVec3; 3]) {
     (of(mesh.positions()), of(mesh.normals()))
 }
 
-/// True if each block of a band of rows is in shadow, once known.
-type Blocks = Vec<Option<bool>>;
+/// Shadow of a block of samples.
+#[derive(Clone, Copy, Debug)]
+enum Block {
+    Unknown,
+    /// Of all its samples: true if they are in shadow.
+    Whole(bool),
+    /// An edge may run through it: each sample has a ray of its own.
+    Mixed,
+}
 
 impl Scene<'_> {
-    fn part(&self, start: usize, count: usize) -> Part {
+    fn part(&self, start: usize, count: usize) -> Band {
         let hits = self.visibility.hits();
         let end = (start + count).min(hits.len());
-        let mut part = Part::default();
+        let mut part = Band::default();
         part.seen.extend((start..end).filter(|&sample| hits[sample].is_some()).map(|sample| sample as u32));
         part.counts.seen = part.seen.len() as u64;
         part.samples.reserve(part.seen.len());
         part.angles.reserve(part.seen.len());
-        let mut blocks = vec![None; self.visibility.size().columns().div_ceil(BLOCK)];
+        let mut blocks = vec![Block::Unknown; self.visibility.size().columns().div_ceil(BLOCK)];
         let (mut given, mut found) = (Given::NOTHING, Found::NOTHING);
         for run in 0..part.seen.len().div_ceil(LANES) {
             let run = run * LANES..part.seen.len().min((run + 1) * LANES);
@@ -375,7 +396,7 @@ impl Scene<'_> {
     }
 
     /// Adds a sample to those that the light reaches, or counts why it does not.
-    fn take(&self, sample: u32, lane: usize, given: &Given, found: &Found, blocks: &mut Blocks, part: &mut Part) {
+    fn take(&self, sample: u32, lane: usize, given: &Given, found: &Found, blocks: &mut [Block], part: &mut Band) {
         let hit = self.visibility.hits()[sample as usize];
         let (place, mut angles) = if found.plain[lane] {
             let (point, normal, behind) = (given.point(lane), found.normal(lane), found.behind[lane]);
@@ -436,9 +457,9 @@ impl Scene<'_> {
         place.point + mix(lifts, place.hit.barycentric().map(f64::from)) + above
     }
 
-    fn is_shadowed(&self, place: &SeenPlace, sample: u32, block: &mut Option<bool>, rays: &mut u64) -> bool {
+    fn is_shadowed(&self, place: &SeenPlace, sample: u32, block: &mut Block, rays: &mut u64) -> bool {
         let Some((tree, shadows)) = self.shadows else { return false };
-        let mut trace = || {
+        let mut trace = |place: &SeenPlace, sample: u32| {
             *rays += 1;
             let way = self.light.seen_from(place.point);
             way.is_some_and(|(to_light, distance)| {
@@ -448,9 +469,31 @@ impl Scene<'_> {
         };
         match shadows {
             Shadows::Off => false,
-            Shadows::Full => trace(),
-            Shadows::Coarse => *block.get_or_insert_with(trace),
+            Shadows::Full => trace(place, sample),
+            Shadows::Coarse => {
+                if let Block::Unknown = block {
+                    *block = self.whole_block(sample, &mut trace).map_or(Block::Mixed, Block::Whole);
+                }
+                if let Block::Whole(is_shadowed) = *block { is_shadowed } else { trace(place, sample) }
+            }
         }
+    }
+
+    /// Shadow of the block around a sample if all its corners see the mesh turned to the light and are alike.
+    fn whole_block(&self, sample: u32, trace: &mut impl FnMut(&SeenPlace, u32) -> bool) -> Option<bool> {
+        let size = self.visibility.size();
+        let (columns, rows) = (size.columns(), size.rows());
+        let (row, column) = (sample as usize / columns / BLOCK * BLOCK, sample as usize % columns / BLOCK * BLOCK);
+        let [far, low] = [(column + BLOCK).min(columns) - 1, (row + BLOCK).min(rows) - 1];
+        let mut of_corner = |(row, column): (usize, usize)| {
+            let at = row * columns + column;
+            let hit = self.visibility.hits()[at];
+            let (place, angles) = hit.is_some().then(|| self.checked_angles(at, hit))?;
+            (angles.cos_i > 0.0 && angles.cos_s > 0.0).then(|| trace(&place, at as u32))
+        };
+        let first = of_corner((row, column))?;
+        let corners = [(row, far), (low, column), (low, far)];
+        corners.into_iter().all(|corner| of_corner(corner) == Some(first)).then_some(first)
     }
 
     /// The direction to a point of the light's disk: each of a pixel's samples has its own, so that their mean is the visible share.

@@ -46,6 +46,8 @@ pub struct SpectralWeights {
     pub transmitted: Option<Transmitted>,
     /// Signals of the surface under the whole sky, where there is one.
     pub sky: Option<Arc<SkySignals>>,
+    /// Signals of the surface under as much light from a white ground, where there is a ground.
+    pub bounce: Option<Arc<SkySignals>>,
 }
 
 /// Light that passes through a leaf, equal in all directions.
@@ -112,6 +114,7 @@ impl SpectralWeights {
             untinted: None,
             transmitted: None,
             sky: None,
+            bounce: None,
         }
     }
 

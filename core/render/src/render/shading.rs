@@ -9,6 +9,7 @@ use super::geometry::{Angles, GeometryImage};
 use super::measure::{LAMBDA_0_NM, SpectralWeights};
 use super::plan::{self, Demand, Plan};
 use super::sky::Sky;
+use super::sky::ground::Bounce;
 use super::stop::Stop;
 use super::vertices::VertexImage;
 use crate::reflectance::coherent::rho0_squared_bound;
@@ -63,6 +64,7 @@ pub struct ShadingImage {
     counts: ShadingCounts,
     range: Option<KappaRange>,
     sky: Option<Sky>,
+    bounce: Option<Arc<Vec<Bounce>>>,
 }
 
 /// Smallest and largest κ of the spectral integrals, and how many are below [`NEARLY_ROUGH`] and [`ROUGH`].
@@ -113,7 +115,8 @@ impl ShadingImage {
             None => {
                 let place = |index: usize| {
                     let angles: &Angles = &geometry.angles()[index];
-                    Place { geometry: angles.geometry(), light: angles.light(), surface }
+                    let is_matte = geometry.placed().part(index).is_matte();
+                    Place { geometry: angles.geometry(), light: angles.light(), surface, is_matte }
                 };
                 material.shaded(geometry.angles().len(), place, stop)?
             }
@@ -122,6 +125,7 @@ impl ShadingImage {
                     geometry: vertices.geometries()[index],
                     light: 1.0,
                     surface: roughness.get(index).copied().unwrap_or_default().of(surface),
+                    is_matte: false,
                 };
                 material.shaded(vertices.geometries().len(), place, stop)?
             }
@@ -151,6 +155,7 @@ impl ShadingImage {
             counts,
             range,
             sky: None,
+            bounce: None,
         })
     }
 
@@ -158,6 +163,17 @@ impl ShadingImage {
     #[must_use]
     pub fn under(self, sky: Sky) -> Self {
         Self { sky: Some(sky), ..self }
+    }
+
+    /// This over a ground, by its light at each lit sample.
+    #[must_use]
+    pub fn over(self, bounce: Arc<Vec<Bounce>>) -> Self {
+        Self { bounce: Some(bounce), ..self }
+    }
+
+    /// Light from the ground at each lit sample, if there is one.
+    pub fn bounce(&self) -> Option<&[Bounce]> {
+        self.bounce.as_ref().map(|bounce| bounce.as_slice())
     }
 
     /// The sky, if there is one.
@@ -305,9 +321,9 @@ impl Material {
     }
 
     fn shade(&self, place: &Place) -> Shade {
-        let Place { geometry, light, surface } = place;
+        let Place { geometry, light, surface, is_matte } = place;
         let light = *light;
-        if self.reading == Normalization::Lambertian {
+        if *is_matte || self.reading == Normalization::Lambertian {
             return Shade { front: light, kappa: 0.0, beta: 0.0, kind: DiffuseKind::Flat };
         }
         let front = light * diffuse_prefactor(surface, geometry, self.reading);
@@ -321,8 +337,8 @@ impl Material {
 
     /// The coherent component of a sample, if it may be above the least that counts.
     fn lobe(&self, place: &Place, index: usize, least: f64) -> Option<Lobe> {
-        let Place { geometry, light, surface } = place;
-        if self.reading == Normalization::Lambertian {
+        let Place { geometry, light, surface, is_matte } = place;
+        if *is_matte || self.reading == Normalization::Lambertian {
             return None;
         }
         let kappa = kappa(surface, geometry);

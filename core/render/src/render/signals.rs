@@ -5,8 +5,10 @@ use super::geometry::LitSamples;
 use super::measure::SpectralWeights;
 use super::plan::{Places, Plan, RUN};
 use super::shading::{DiffuseKind, Shade, ShadingImage};
+use super::sky::ground;
 use super::stop::Stop;
 use chromascope_math::array::each;
+use chromascope_mesh::Part;
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -48,6 +50,29 @@ impl CameraImage {
         Self { signals: Arc::new(signals), ..self.clone() }
     }
 
+    /// This image with the signals of matte parts, ascending by part; those of other parts stay.
+    ///
+    /// ```text
+    /// T_c (cos θi cos⁴α + s W_d) + B_c E/ρ_g
+    /// ```
+    /// T = signal of a part that faces the light; B = that in the light that the ground sends up.
+    #[must_use]
+    pub fn with_matte(&self, shading: &ShadingImage, parts: &[MattePart]) -> Self {
+        let mut signals = (*self.signals).clone();
+        let (placed, sky, bounce) = (shading.geometry().placed(), shading.sky(), shading.bounce());
+        let lit = signals.par_iter_mut().zip(placed.parts()).zip(shading.geometry().angles()).enumerate();
+        lit.with_min_len(4096).for_each(|(index, ((signal, part), angles))| {
+            if let Ok(at) = parts.binary_search_by_key(part, |matte| matte.part) {
+                let above = sky.map_or(0.0, |sky| sky.share * f64::from(sky.image.samples()[index].diffuse));
+                let below = bounce.map_or(0.0, |bounce| f64::from(ground::from_below(bounce[index], sky)));
+                let MattePart { facing, from_ground, .. } = parts[at];
+                let light = angles.light() + above;
+                *signal = std::array::from_fn(|c| (facing[c] * light + from_ground[c] * below) as f32);
+            }
+        });
+        Self { signals: Arc::new(signals), ..self.clone() }
+    }
+
     /// The methods of integration of the diffuse component.
     pub fn plan(&self) -> &Plan {
         &self.plan
@@ -62,6 +87,17 @@ impl CameraImage {
     pub fn signals(&self) -> &[[f32; 3]] {
         &self.signals
     }
+}
+
+/// Signals of a part that scatters evenly.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MattePart {
+    /// The part.
+    pub part: Part,
+    /// When it faces the light.
+    pub facing: [f64; 3],
+    /// Under as much light by way of the ground.
+    pub from_ground: [f64; 3],
 }
 
 struct Camera<'a> {
@@ -115,6 +151,9 @@ impl Camera<'_> {
         }
         if let Some(sky) = shading.sky() {
             sky.add(self.measure, shading.geometry().angles(), &mut signals);
+        }
+        if let Some(bounce) = shading.bounce() {
+            ground::add(bounce, shading.sky(), self.measure, &mut signals);
         }
         (!stop.is_set()).then_some(signals)
     }

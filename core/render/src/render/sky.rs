@@ -12,6 +12,7 @@
 //! `W_d` is a ratio of two sums over directions that are distributed as the lobe's slopes are. The only approximation is that it is
 //! the same at all wavelengths: exact where the sky is seen whole, for Lambertian and for rough surfaces.
 
+pub mod ground;
 mod lobe;
 mod visible;
 
@@ -43,7 +44,7 @@ const CHUNK: usize = 1024;
 /// Visible shares of the sky at one sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SkySample {
-    /// `W_d`, times cos⁴α.
+    /// `W_d`, times cos⁴α; of matte parts the mean over the cosine.
     pub diffuse: f32,
     /// `W_m`, times cos⁴α.
     pub coherent: f32,
@@ -82,8 +83,9 @@ impl SkyImage {
         let hits = visibility.hits();
         let seen: Vec<u32> = (0..hits.len() as u32).filter(|&sample| hits[sample as usize].is_some()).collect();
         let lobe = Lobe::new(view.surface, view.reading, view.fineness.directions);
-        let behind = view.through.then(|| Lobe::new(view.surface, Normalization::Lambertian, view.fineness.directions));
-        let sample = Sampling { mesh, visibility, sky, lobe, behind };
+        let even = view.through || !mesh.parts().is_empty();
+        let even = even.then(|| Lobe::new(view.surface, Normalization::Lambertian, view.fineness.directions));
+        let sample = Sampling { mesh, visibility, sky, lobe, even, through: view.through };
         let (run, columns) = (view.fineness.run.max(1), visibility.size().columns());
         let chunk = |chunk: &[u32]| {
             let mut samples: Vec<SkySample> = Vec::with_capacity(chunk.len());
@@ -115,7 +117,9 @@ struct Sampling<'a> {
     visibility: &'a Visibility,
     sky: &'a SkyVisibility,
     lobe: Lobe,
-    behind: Option<Lobe>,
+    /// Of what scatters evenly, where there is such.
+    even: Option<Lobe>,
+    through: bool,
 }
 
 impl Sampling<'_> {
@@ -138,11 +142,13 @@ impl Sampling<'_> {
         let mirrored = normal * (2.0 * cos_s) - to_viewer;
         // A normal that was bent to the viewer is no place's own: it would shine along the outline of every facet.
         let own = if cos_s > BENT { 1.0 } else { 0.0 };
-        let through = self.behind.as_ref().map_or(0.0, |lobe| {
+        let through = self.even.as_ref().filter(|_| self.through).map_or(0.0, |lobe| {
             lobe.visible_mean(-normal, -normal, |direction| visible_share(after, weights, direction))
         });
+        let is_matte = self.mesh.part(hit.triangle).is_matte();
+        let lobe = self.even.as_ref().filter(|_| is_matte).unwrap_or(&self.lobe);
         SkySample {
-            diffuse: falloff * self.lobe.visible_mean(normal, to_viewer, visible),
+            diffuse: falloff * lobe.visible_mean(normal, to_viewer, visible),
             coherent: own * falloff * lobe::above(mirrored.y, lobe::EDGE) * visible(mirrored),
             behind: falloff * through,
         }

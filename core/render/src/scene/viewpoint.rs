@@ -126,8 +126,7 @@ impl Viewpoint {
         };
         let wider =
             |a: [[f64; 2]; 2], b: [[f64; 2]; 2]| std::array::from_fn(|i| std::array::from_fn(|j| a[i][j].max(b[i][j])));
-        let points = mesh.positions().par_iter().with_min_len(4096);
-        let ends: [[f64; 2]; 2] = points.fold(|| empty, reach).reduce(|| empty, wider);
+        let ends: [[f64; 2]; 2] = mesh.framed().fold(|| empty, reach).reduce(|| empty, wider);
         let whole = |axis: usize| (ends[axis][0] + ends[axis][1]) / (2.0 * t[axis]);
         let middle = |axis: usize| (ends[axis][0] - ends[axis][1]) / 2.0;
         let distance = (frame.zoom * whole(0).max(whole(1))).max(1e-3 * eye.radius);

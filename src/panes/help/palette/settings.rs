@@ -97,7 +97,7 @@ pub(super) fn render(context: &PaneContext<'_>) -> Vec<Found> {
     let sliders = sliders.filter(|setting| !setting.value.numbers().is_empty());
     let sliders = sliders.map(|setting| (setting.sought(), setting.name, setting.found_by));
     for (sought, name, also) in sliders.chain([("Field of view", "Field of view", "lens angle zoom")]) {
-        let line = Found::new(RENDER, name, Command::Seek(PaneKind::RENDER_SETTINGS, sought));
+        let line = Found::new(RENDER, name, Command::Seek(PaneKind::RENDER, sought));
         found.push(line.note("go to the slider").also(format!("render {also}")));
     }
     let mut offer = |what: &'static str, words: String, also: &str, change: &dyn Fn(&mut RenderSettings)| {

@@ -1,10 +1,10 @@
 //! Header and rows of a table; only visible ones are laid out.
 
-use chromascope_figure::{Cell, CellValue, Column};
+use chromascope_figure::{Cell, CellValue, Column, InkRole};
 use egui::{Id, Rect, Response, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, UiBuilder, Vec2, WidgetInfo};
 use egui_table::{CellInfo, HeaderCellInfo, HeaderRow, PrefetchInfo, TableDelegate};
 
-use super::columns::{Form, Layout, air, words};
+use super::columns::{Form, Layout, WIDEST_TEXT, air, words};
 use super::{COMPACT_LINE, DataTable, HEAD_LINE, LINE, TableLook, TableOutput, cut};
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::{focus_rim, lines};
@@ -90,7 +90,8 @@ impl<'a> Body<'a> {
 
     /// Height of the head: one line, or two where there are units.
     pub(super) fn head_height(&self) -> f32 {
-        let has = |text: fn(&Column) -> &str| self.of.table.columns.iter().any(|column| !text(column).is_empty());
+        let columns = &self.of.table.columns;
+        let has = |text: fn(&Column) -> &str| self.shown.iter().any(|&index| !text(&columns[index]).is_empty());
         let lines = f32::from(u8::from(has(|column| &column.name))) + f32::from(u8::from(has(|column| &column.unit)));
         let air = if self.of.compact || lines == 0.0 { 0.0 } else { 1.5 * UNIT };
         lines * HEAD_LINE + air
@@ -106,6 +107,14 @@ impl<'a> Body<'a> {
         if self.of.compact {
             fit(&mut widths, rect.width());
             return self.lay_out(&mut child, rect, &widths);
+        }
+        // A last column whose text is cut has what is left, but for the scroll bar.
+        let left = rect.width() - widths.iter().sum::<f32>() - 3.0 * UNIT;
+        if let (Some(last), Some(&column)) = (widths.last_mut(), self.shown.last())
+            && self.layouts[column].form == Form::Text
+            && f64::from(*last) > WIDEST_TEXT
+        {
+            *last += left.max(0.0);
         }
         self.sticks = widths.len() > 1 && widths[0] < WIDEST_FROZEN * rect.width();
         let page = ((rect.height() - self.head_height()) / self.default_row_height()).floor() as usize;
@@ -200,7 +209,8 @@ impl<'a> Body<'a> {
     fn spoken(&self, row: usize) -> String {
         let said = |&column: &usize| self.said(row, column);
         let Some((first, others)) = self.shown.split_first() else { return String::new() };
-        let others = others.iter().map(|column| format!("{} {}", self.of.table.columns[*column].name, said(column)));
+        let others = others.iter().filter(|column| !self.of.is_drawn(**column));
+        let others = others.map(|column| format!("{} {}", self.of.table.columns[*column].name, said(column)));
         let others: Vec<String> = others.map(|words| words.trim_start().to_owned()).collect();
         if others.is_empty() { said(first) } else { format!("{}: {}", said(first), others.join(", ")) }
     }
@@ -311,7 +321,9 @@ impl Body<'_> {
                 if !column.hint.is_empty() {
                     ui.label(&column.hint);
                 }
-                ui.small("Click to sort.");
+                if !self.of.is_drawn(index) {
+                    ui.small("Click to sort.");
+                }
             });
         }
     }
@@ -345,12 +357,22 @@ impl Body<'_> {
         let (layout, cell) = (self.layouts[column], self.of.table.cell(row, column));
         let whole = ui.max_rect();
         let rect = self.inner(whole);
+        if let Some(drawn) = self.of.drawn.filter(|drawn| drawn.column == column) {
+            return (drawn.draw)(ui.painter(), whole.shrink2(Vec2::new(UNIT, 2.0)), row);
+        }
         let style = if self.of.compact { TextStyle::Small } else { TextStyle::Body };
         let ink = if cell.note().is_gray { self.theme.weak } else { self.theme.text };
         let said = self.said(row, column);
         let cut = match cell.value() {
             CellValue::Number(value) => {
                 self.number(ui, rect, cell, value, column);
+                false
+            }
+            CellValue::Text(_) if cell.note().swatch.is_some() => {
+                let (left, right) = whole.shrink2(Vec2::new(UNIT, 1.0)).split_left_right_at_fraction(0.5);
+                for (half, color) in [left, right].into_iter().zip(cell.note().swatch.unwrap_or_default()) {
+                    ui.painter().rect_filled(half, 0.0, self.theme.ink(InkRole::Rgb(color).into()));
+                }
                 false
             }
             CellValue::Text(text) => lines::name(ui, rect, text, style, ink),

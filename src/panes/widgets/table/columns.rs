@@ -6,7 +6,7 @@ use crate::format::{aligned, number, whole};
 use crate::theme::UNIT;
 
 /// Maximum width of a text column, in points; longer text is cut and shown under the pointer.
-const WIDEST_TEXT: f64 = 260.0;
+pub(super) const WIDEST_TEXT: f64 = 260.0;
 /// Maximum width of a header above shorter cells.
 const WIDEST_HEAD: f64 = 150.0;
 const NARROWEST: f64 = 40.0;
@@ -57,7 +57,8 @@ impl Layout {
             }
             other => other,
         };
-        let texts = cells().take(MEASURED_ROWS).filter_map(|cell| Some(text_width(cell.text()?, size)));
+        let texts = cells().take(MEASURED_ROWS).filter(|cell| cell.note().swatch.is_none());
+        let texts = texts.filter_map(|cell| Some(text_width(cell.text()?, size)));
         let text = texts.fold(0.0, f64::max).min(WIDEST_TEXT);
         let extremes = numbers().fold([0.0_f64; 2], |[low, high], value| [low.min(value), high.max(value)]);
         let written = |value: f64| text_width(&words(value, form, None), TextSize::Mono);
@@ -75,18 +76,18 @@ impl Layout {
         let head = text_width(&column.name, TextSize::Small).max(text_width(&column.unit, TextSize::Small)) + arrow;
         let content = text.max(number) + behind;
         let width = content.max(head.min(WIDEST_HEAD)).max(least) + f64::from(air(compact).iter().sum::<f32>());
-        let shades = column.shaded.then(|| shades(numbers().collect(), column.largest_first)).flatten();
+        let shades = column.shaded.then(|| shades(numbers().map(f64::abs).collect(), column.largest_first)).flatten();
         Self { form, width: width.ceil() as f32, uncertainty: behind.ceil() as f32, shades }
     }
 
     /// Share of the darkest gray behind a number.
     pub(super) fn shade(&self, value: f64) -> Option<f32> {
         let [best, worst] = self.shades?;
-        Some(((value - best) / (worst - best)).clamp(0.0, 1.0) as f32)
+        Some(((value.abs() - best) / (worst - best)).clamp(0.0, 1.0) as f32)
     }
 }
 
-/// The best number, and the worst tenth's: one bad row does not make all others look alike. None where all are one number.
+/// The best of magnitudes, and the worst tenth's: one bad row does not make all others look alike. None where all are one number.
 fn shades(mut values: Vec<f64>, largest_first: bool) -> Option<[f64; 2]> {
     values.sort_by(f64::total_cmp);
     if largest_first {

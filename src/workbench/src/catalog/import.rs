@@ -92,14 +92,14 @@ pub fn imported(origin: &Origin, table: &SpectralFile, overrides: &ImportOverrid
     let mut message = format!("{file}: {}", summary(table));
     let taken = taken(table, overrides);
     if taken.len() < table.curves.len() {
-        message = format!("{message} {} of them are imported; choose in Import.", taken.len());
+        message = format!("{message} {} of them are imported; choose in Data.", taken.len());
     }
     if let Some(guess) = guesses.iter().find(|guess| guess.effect == Effect::Scale).or_else(|| guesses.first()) {
-        let choose = if guess.certainty == Certainty::Open { " Choose in Import." } else { "" };
+        let choose = if guess.certainty == Certainty::Open { " Choose in Data." } else { "" };
         message = format!("{message} {guess}{choose}");
     }
     if table.role.value == Role::Camera && table.reading.camera_columns.is_none() && table.curves.len() > 3 {
-        message = format!("{message} Its first three curves are used as red, green and blue; choose in Import.");
+        message = format!("{message} Its first three curves are used as red, green and blue; choose in Data.");
     }
     if let Some(warning) = table.warnings.first() {
         message = format!("{message} {warning}");

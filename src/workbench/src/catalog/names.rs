@@ -1,6 +1,7 @@
 //! Lookup of data sets by typed name.
 
 use super::Entry;
+use crate::document::SetKind;
 
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NameError {
@@ -42,6 +43,15 @@ pub fn sort_key(name: &str) -> Vec<(String, u64)> {
         rest = &tail[end..];
     }
     key
+}
+
+/// Lights in the order in which they are commonly used, before all others.
+const IN_USE: [&str; 8] = ["D65", "D50", "A", "E", "D55", "FL2", "FL11", "LED-B3"];
+
+/// Place of a light among those in common use, or after them.
+pub fn rank_in_use(entry: &Entry) -> usize {
+    let is_it = |name: &&str| entry.kind == SetKind::Illuminant && *name == entry.name;
+    IN_USE.iter().position(is_it).unwrap_or(IN_USE.len())
 }
 
 /// How well a name fits a search; the best comes first.

@@ -80,11 +80,11 @@ pub fn lit(reflectance: &GridSpectrum, light: &GridSpectrum) -> GridSpectrum {
     })
 }
 
-fn delimiter(line: &str) -> char {
+pub(super) fn delimiter(line: &str) -> char {
     [',', ';', '\t'].into_iter().max_by_key(|c| line.matches(*c).count()).unwrap_or(',')
 }
 
-fn cells(line: &str, delimiter: char) -> Vec<String> {
+pub(super) fn cells(line: &str, delimiter: char) -> Vec<String> {
     let mut cells = vec![String::new()];
     let mut quoted = false;
     let mut signs = line.trim_end_matches('\r').chars().peekable();
@@ -105,7 +105,7 @@ fn cells(line: &str, delimiter: char) -> Vec<String> {
 }
 
 /// A number of a cell, NaN for a missing one; none for text. A comma is a decimal mark where it does not separate.
-fn number(cell: &str, delimiter: char) -> Option<f64> {
+pub(super) fn number(cell: &str, delimiter: char) -> Option<f64> {
     if cell.is_empty() || cell == "-" || cell.eq_ignore_ascii_case("nan") {
         return Some(f64::NAN);
     }

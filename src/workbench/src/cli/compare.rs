@@ -1,10 +1,11 @@
 //! `compare`: cameras ranked by figures of merit, as an aligned table, as CSV and as JSON.
 
 use std::fmt::Write as _;
+use std::sync::Arc;
 
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::metrics::{Better, rank_ranges};
-use chromascope_core::query::{Ask as _, CameraMetric, CameraMetricsQuery, MetricUncertainty, MetricValue, WhyNot};
+use chromascope_core::query::{Ask as _, CameraMetric, MetricUncertainty, MetricValue, Shared, WhyNot};
 use chromascope_core::spectral::Correlation;
 use chromascope_figure::number::significant;
 use chromascope_figure::{Cell, Column, Table};
@@ -15,7 +16,9 @@ use serde_json::{Map, Value, json};
 use super::arguments::{ChartArguments, CommonArguments, Form, LOCUS_K, PixelArguments, form};
 use super::error::{Result, refused};
 use super::request::Request;
-use crate::document::SetKind;
+use crate::catalog::load::LoadError;
+use crate::document::{SensorId, SetKind};
+use crate::figures::metrics::USUAL;
 use crate::format::cut_in_middle;
 use crate::results::Results;
 use crate::scene::metrics::CameraFigures;
@@ -54,8 +57,6 @@ const FORMS: [&str; 3] = [
     "One object with conditions, metrics and values",
 ];
 
-const USUAL: &str =
-    "delta-e2000-mean delta-e2000-p95 delta-e2000-max metamerism-index vora luther cct-error noise-gain";
 /// All metrics, in the place of their names.
 const ALL: &str = "all";
 /// The order of names, in the place of a metric.
@@ -85,10 +86,10 @@ The number after ± is the standard uncertainty that errors of the sensitivities
 the spread between laboratories, propagated through the camera's own curves; with those that the files of light and chart state. A rank is a range where values do not differ at 95 %. A value that is undefined is –, with the reason
 below.
 
-CSV: sensor, rank_first, rank_last (by the metric of --sort); for each metric its column and the same with _uncertainty; origin of the
+CSV: sensor, rank_first, rank_last (by the metric of --sort); for each metric its column and the same with _uncertainty; worst_patch and its difference; origin of the
 uncertainty, coverage factor, degrees of freedom, extrapolated; then the conditions. JSON: format, version, conditions, metrics,
-cameras with value, uncertainty, its budget and rank of each metric or the reason for none, and worst_patches, those of the largest
-\u{394}E*00."
+cameras with value, uncertainty, its budget and rank of each metric or the reason for none, worst_patches, those of the largest
+\u{394}E*00, and worst, the patch that differs most by the preset's metric."
     )
 }
 
@@ -103,6 +104,8 @@ struct Comparison {
     sorted_by: Option<CameraMetric>,
     rows: Vec<Row>,
     patches: Vec<String>,
+    /// Metric by which a patch is the worst.
+    difference: Metric,
     /// Conditions by their heads, the temperature among them.
     conditions: Vec<(Column, String)>,
     /// Sentences on uncertainties that files state and that are not used.
@@ -158,23 +161,33 @@ fn compared(scene: &Scene<'_>, request: &Request, arguments: &CompareArguments) 
         None => metrics.first().copied(),
     };
     let temperature = arguments.temperature.or(scene.document.radiator_k()).unwrap_or(LOCUS_K);
-    let query = |(kind, name): &(SetKind, String)| scene.camera_metrics_query_at(*kind, name, temperature);
-    let queries: Vec<_> = request.sources.iter().map(query).collect::<Result<_, SceneError>>()?;
-    let uncertainty = |((kind, name), query): (&(SetKind, String), &CameraMetricsQuery)| {
-        scene.metric_uncertainties_query(*kind, name, query.clone())
+    let wanted = metrics.iter().copied().chain(sorted_by).collect();
+    let conditions = Shared::new(scene.metrics_conditions(temperature, wanted)?);
+    let query = |(kind, name): &(SetKind, String)| {
+        let sensor = SensorId { kind: *kind, name: name.clone() };
+        Ok(scene.figures_query(&sensor, conditions.clone())?.with_uncertainties())
     };
-    let uncertainties: Vec<_> =
-        request.sources.iter().zip(&queries).map(uncertainty).collect::<Result<_, SceneError>>()?;
-    let figures = scene.results.ask_all(&queries).into_iter().zip(scene.results.ask_all(&uncertainties));
-    let figures = figures.map(|(metrics, all)| CameraFigures { metrics, uncertainties: Some(all) });
+    let queries: Vec<_> = request.sources.iter().map(query).collect::<Result<_, SceneError>>()?;
+    let found = |((kind, name), all): (&(SetKind, String), Arc<_>)| match &*all {
+        Ok(all) => Ok((*kind, name.clone(), CameraFigures::clone(all))),
+        Err(error) => Err(SceneError::Load { name: name.clone(), error: LoadError::clone(error) }),
+    };
     let found: Vec<_> =
-        request.sources.iter().cloned().zip(figures).map(|((kind, name), all)| (kind, name, all)).collect();
+        request.sources.iter().zip(scene.results.ask_all(&queries)).map(found).collect::<Result<_, SceneError>>()?;
     let mut conditions = scene.conditions();
     conditions.extend(scene.metrics_constants(temperature));
     let patches = scene.patches()?.patches().iter().map(|patch| patch.name.clone()).collect();
     let cameras = request.sources.iter().filter(|(kind, _)| *kind == SetKind::Camera);
     let refused = scene.refused_uncertainties(cameras.map(|(_, name)| name.as_str()));
-    Ok(Comparison { rows: rows(&found, &metrics, sorted_by), metrics, sorted_by, patches, conditions, refused })
+    Ok(Comparison {
+        rows: rows(&found, &metrics, sorted_by),
+        metrics,
+        sorted_by,
+        patches,
+        difference: scene.document.difference,
+        conditions,
+        refused,
+    })
 }
 
 fn rows(
@@ -223,9 +236,12 @@ const LONGEST_NAME: usize = 40;
 fn table(comparison: &Comparison, longest: usize) -> Table {
     let rows = &comparison.rows;
     let names = rows.iter().map(|row| cut_in_middle(&row.name, |name| name.chars().count() <= longest).into_owned());
-    uncertainty::table(("sensor", names), &comparison.metrics, |row, metric| {
+    let mut table = uncertainty::table(("sensor", names), &comparison.metrics, |row, metric| {
         rows[row].all.of(metric).map_or(Cell::Empty, cell)
-    })
+    });
+    let (at, metrics) = (table.columns.len(), rows.iter().map(|row| Some(&*row.all.metrics)));
+    uncertainty::insert_worst(&mut table, at, (comparison.difference, &comparison.patches), metrics);
+    table
 }
 
 /// Aligned columns: rank, sensor, values with uncertainties; then the conditions and the reasons for missing values.
@@ -322,11 +338,17 @@ fn json(comparison: &Comparison) -> String {
         });
         let worst: Vec<&String> =
             row.all.metrics.worst.iter().take(1).flatten().filter_map(|&patch| comparison.patches.get(patch)).collect();
+        let place = Metric::ALL.iter().position(|metric| *metric == comparison.difference).unwrap_or(0);
+        let largest = row.all.metrics.worst.get(place).and_then(|worst| worst.first()).map(|&patch| {
+            let difference = row.all.metrics.patches[patch].by_metric[place].ok();
+            json!({ "patch": comparison.patches.get(patch), "metric": comparison.difference.id, "difference": difference })
+        });
         json!({
             "name": row.name,
             "kind": row.kind.label(),
             "values": values.collect::<Map<String, Value>>(),
             "worst_patches": worst,
+            "worst": largest,
         })
     };
     let conditions = comparison.conditions.iter().map(|(column, value)| (column.key.clone(), json!(value)));

@@ -15,6 +15,7 @@ use super::error::{Result, refused};
 use super::identify::recorded_table;
 use super::outputs::{self, Stop};
 use super::request::{Request, in_file};
+use crate::catalog::recorded::Levels;
 use crate::document::{Document, LOCUS_RANGE_K, session};
 use crate::export::{FigureForm, Paper};
 use crate::figures::kind::Need;
@@ -24,7 +25,7 @@ use crate::scene::Scene;
 pub(super) fn run(arguments: &FigureArguments, matches: &ArgMatches) -> Result<()> {
     let out = arguments.common.out.path.as_deref();
     let Some(form) = out.and_then(FigureForm::of) else {
-        return refused("--out", "a file that ends in .pdf, .svg, .png, .tif, .csv or .json is needed");
+        return refused("--out", "a file that ends in .pdf, .svg, .png, .tif, .csv, .json or .tex is needed");
     };
     let mut request = Request::new(&arguments.common, matches)?;
     let recorded = prepare(&mut request, arguments)?;
@@ -36,6 +37,7 @@ pub(super) fn run(arguments: &FigureArguments, matches: &ArgMatches) -> Result<(
         return refused("KIND", "skipped work is a table: `chromascope render --stats -`, or Statistics in Numerics");
     };
     let mut look = made::look((kind, arguments.viewpoint), &scene, (&paper, recorded))?;
+    look.difference_plane = arguments.plane;
     if let Range::Of(ranges) = arguments.paper.range {
         look.diagram.zoomed = Some(ranges);
     }
@@ -65,12 +67,13 @@ fn prepare(request: &mut Request, arguments: &FigureArguments) -> Result<Option<
     if let Some(pixel) = arguments.pixel.pixel()? {
         request.document.pixel = Some(pixel);
     }
+    request.document.exaggeration = arguments.exaggerate.unwrap_or(request.document.exaggeration);
     if let Some(mesh) = &arguments.mesh {
         made::set_mesh(&mut request.document, mesh)?;
     }
     match (&arguments.file, arguments.kind.0.map(|kind| kind.needs)) {
         (None, _) => Ok(None),
-        (Some(path), Some(Need::Recorded)) => recorded_table(request, path).map(Some),
+        (Some(path), Some(Need::Recorded)) => recorded_table(request, path, Levels::default()).map(Some),
         (Some(path), Some(Need::Curves)) => made::open_curves(request, path).map(|()| None),
         (Some(_), _) => refused("FILE", "only `curves` and `recorded` are of a file"),
     }
@@ -110,7 +113,7 @@ fn check_height(figure: &Figure, paper: &Paper, form: FigureForm) -> Result<()> 
     refused("--height", reason)
 }
 
-fn opened(request: &mut Request, path: &Path) -> Result<Document> {
+pub(super) fn opened(request: &mut Request, path: &Path) -> Result<Document> {
     let text = String::from_utf8(request.bytes(path)?).map_err(|_| in_file(path, "it is not text"))?;
     let mut document = session::from_json(&text).map_err(|error| in_file(path, error))?;
     // A session names a mesh without its folder: it is beside it.

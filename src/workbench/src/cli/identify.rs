@@ -226,13 +226,13 @@ fn recorded_set(request: &mut Request, arguments: &IdentifyArguments, levels: Le
 }
 
 /// Patches of one table with their raw values: its own spectra, else those of the chart, under the light.
-pub(super) fn recorded_table(request: &mut Request, path: &Path) -> Result<RecordedSet> {
+pub(super) fn recorded_table(request: &mut Request, path: &Path, levels: Levels) -> Result<RecordedSet> {
     let RawTable { spectra, rows, .. } = raw_table(request, path)?;
     let spectra = match spectra {
         Some(text) => file_spectra(request, path, Some(&text), false)?,
         None => chart_spectra(request)?,
     };
-    let joined = recorded::join(&spectra, &rows, Levels { black: 0.0, clip: f64::INFINITY });
+    let joined = recorded::join(&spectra, &rows, levels);
     joined.map(Shared::new).map_err(|error| in_file(path, error))
 }
 

@@ -1,7 +1,7 @@
 //! `inspect`: contents of spectral files, their interpretation, and their curves as plain tables.
 
 mod output;
-mod written;
+pub(super) mod written;
 
 use std::collections::HashSet;
 use std::fs;

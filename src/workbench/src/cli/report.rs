@@ -1,4 +1,4 @@
-//! `report`: the paper's figures and claims with public data, as files in a folder.
+//! `report`: the paper's figures and claims with public data, or a comparison of one's own, as files in a folder.
 
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -7,8 +7,10 @@ use clap::{ArgMatches, Args};
 
 use super::arguments::Per;
 use super::error::{CliError, Result};
+use super::figure::opened;
 use super::outputs::{self, show, write_to};
 use super::render::make_folder;
+use super::render::setup::own_mesh;
 use super::request::Request;
 use crate::document::start::Start;
 use crate::document::{Document, SetKind};
@@ -18,19 +20,26 @@ use crate::terminal::draw_progress;
 
 const EXAMPLES: &str = "Examples:
   chromascope report --out report
+  chromascope report --out sent --session work.chromascope
   chromascope report --out mine --camera \"Canon EOS 5D Mark II\" --camera mine.csv --chart \"ColorChecker 24\"
 
 The folder gets Figures 1 to 9 of the paper as PDF, SVG, PNG and CSV (the numbers behind them), claims.csv with each claim, what is
 found and its rounding (half of the last digit, not how well it is known), and report.html: one page with all of that, without links
-to the network. Claims about cameras that are not in the report are not judged; checks beyond the paper stand apart.";
+to the network. Claims about cameras that are not in the report are not judged; checks beyond the paper stand apart.
 
-/// Figures and claims of the 2007 paper with public data: PDF, SVG, PNG, CSV and one page
+With --session, report.html is about that session's comparison in its place: conditions, ranking with uncertainties, worst patches,
+figures and the sources of its data, on one page to send; what the session names and is not there is said. ranking.csv has all metrics.";
+
+/// Figures and claims of the 2007 paper with public data, or a session's comparison, on one page
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct ReportArguments {
     /// A folder, made if it is not there
     #[arg(long, value_name = "FOLDER")]
     out: PathBuf,
+    /// A session of the window, whose comparison is reported in place of the paper
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["camera", "chart", "illuminant"])]
+    session: Option<PathBuf>,
     /// A camera in place of the paper's, a file with three sensitivities, or a folder of such files; may be repeated
     #[arg(long, value_name = "NAME|FILE")]
     camera: Vec<OsString>,
@@ -57,21 +66,26 @@ pub(super) fn run(arguments: &ReportArguments, _: &ArgMatches) -> Result<()> {
     if let Some(illuminant) = &arguments.illuminant {
         request.set_light(illuminant)?;
     }
-    let folder = &arguments.out;
-    let paths: Vec<PathBuf> = Report::names().iter().map(|name| folder.join(name)).collect();
+    let (folder, pixels) = (&arguments.out, arguments.picture_size);
+    let report = if let Some(path) = &arguments.session {
+        request.document = opened(&mut request, path)?;
+        let mesh = own_mesh(&request.document.render.mesh).map_err(|error| error.to_string());
+        Report::on_comparison(&request.document, mesh, pixels)
+    } else {
+        Report::new(document(&request), arguments.illuminant.is_some(), pixels)
+    };
+    let paths: Vec<PathBuf> = report.names().iter().map(|name| folder.join(name)).collect();
     outputs::check(paths.iter().map(PathBuf::as_path), &request.inputs(), arguments.force)?;
     make_folder(folder)?;
-    let document = document(&request);
-    let report = Report::new(document, arguments.illuminant.is_some(), arguments.picture_size);
     let results = Results::default();
-    for step in 0..Report::STEPS {
-        draw_progress(step, Report::STEPS, &Report::name(step));
+    for step in 0..report.steps() {
+        draw_progress(step, report.steps(), &report.name(step));
         let files = report.make(step, &results).map_err(CliError::File)?;
         for file in files {
             write_to(&folder.join(&file.name), &file.bytes)?;
         }
     }
-    draw_progress(Report::STEPS, Report::STEPS, "");
+    draw_progress(report.steps(), report.steps(), "");
     show(&format!("{}\n", folder.join(PAGE).display()))
 }
 

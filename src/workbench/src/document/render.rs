@@ -20,6 +20,8 @@ pub const SKIN: &str = "Skin Caucasian mean (Vrhel)";
 pub const LEAF: &str = "Fern-like bush leaf 024 (Vrhel)";
 /// The garment that a head begins with, except in the paper's figures.
 pub const GARMENT: &str = "Faded jeans 076 (Vrhel)";
+/// The hair and brows of the head.
+pub const HAIR: &str = "Brown hair 097 (Vrhel)";
 /// The light of the paper's third experiment.
 pub const SUN: &str = "Direct sun (ASTM G173)";
 /// The balance of the paper's third experiment.
@@ -45,6 +47,7 @@ pub fn decade(tolerance: f64) -> f64 {
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
+#[allow(clippy::struct_excessive_bools, reason = "switches that do not depend on each other")]
 pub struct RenderSettings {
     pub mesh: MeshChoice,
     /// Approximate number of triangles of the program's own meshes.
@@ -87,6 +90,18 @@ pub struct RenderSettings {
     /// Irradiance of a level surface by a uniform sky over that of a surface that faces the light; 0 without a sky.
     #[serde(default)]
     pub sky: f64,
+    /// True if the chart's patches stand beside the mesh.
+    #[serde(default)]
+    pub chart: bool,
+    /// True if the mesh stands on a gray ground.
+    #[serde(default)]
+    pub ground: bool,
+    /// True if the head has hair and brows.
+    #[serde(default)]
+    pub hair: bool,
+    /// True if a head is cropped at the chest and the fern is turned.
+    #[serde(default)]
+    pub composed: bool,
     /// True if light passes through as through a leaf.
     #[serde(default)]
     pub thin: bool,
@@ -126,6 +141,10 @@ impl Default for RenderSettings {
             light_radius: SUN_RADIUS,
             shadows: true,
             sky: SKY,
+            chart: false,
+            ground: false,
+            hair: false,
+            composed: false,
             thin: false,
             exposure_ev: 0.0,
             sunlight: true,
@@ -170,7 +189,27 @@ impl RenderSettings {
             light_distance: Some(NEAR),
             light_radius: 0.0,
             sky: 0.0,
+            chart: false,
+            ground: false,
+            hair: false,
+            composed: false,
             thin: false,
+            ..self
+        }
+    }
+
+    /// The same mesh as in a photograph: with chart and ground, the sun 45° beside the view axis, exposed for a white before
+    /// the viewer.
+    #[must_use]
+    pub fn as_photographed(self) -> Self {
+        Self {
+            chart: true,
+            ground: true,
+            hair: true,
+            composed: true,
+            light_up_deg: 35.0,
+            light_right_deg: -30.0,
+            exposure_ev: 0.4,
             ..self
         }
     }

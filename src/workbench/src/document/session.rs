@@ -122,6 +122,11 @@ pub fn take_view<V: DeserializeOwned + Serialize>(document: &mut Document) -> Op
     Some((view, refused))
 }
 
+/// A part of the view, without taking it out.
+pub fn peek_view<V: DeserializeOwned>(document: &Document) -> Option<V> {
+    serde_json::from_value(document.unknown.get(VIEW)?.clone()).ok()
+}
+
 /// Removes fields and items of lists that this version does not understand; returns the names of these fields.
 fn take_unreadable<T: DeserializeOwned>(fields: &mut Map<String, Value>) -> Vec<String> {
     let is_read = |key: &str, field: &Value| {

@@ -53,7 +53,9 @@ impl Start {
             document.light = Light::Set("D65".to_owned());
             CHART.clone_into(&mut document.chart);
             document.subset = Subset::All;
+            document.overlays.multiples = true;
             document.render.garment = Some(GARMENT.to_owned());
+            document.render = document.render.as_photographed();
             document.set_transform(TransformChoice::Observer(CIE_1931.to_owned()));
         }
         if self == Self::Paper {

@@ -18,6 +18,8 @@ const MARGIN: f64 = 20.0;
 const EDGE: f64 = 8.0;
 /// Height of the line of the title.
 const TITLE: f64 = 28.0;
+/// Width at its right that is the program's name.
+const SIGNED: f64 = 110.0;
 /// Height of a line of the caption.
 const LINE: f64 = 16.0;
 /// Width of the figure beside the swatches.
@@ -44,9 +46,10 @@ impl Card {
     pub fn picture(&self) -> Result<RgbaImage, ExportError> {
         let inner = POINTS[0] - 2.0 * MARGIN;
         let lines = wrapped(&self.figure.caption, TextSize::Small, inner);
-        let top = MARGIN + TITLE;
+        let title = wrapped(&self.figure.title, TextSize::Heading, inner - SIGNED);
+        let top = MARGIN + TITLE * title.len() as f64;
         let bottom = POINTS[1] - MARGIN - LINE * lines.len() as f64;
-        let mut picture = self.page(&lines, bottom)?;
+        let mut picture = Self::page(&title, &lines, bottom)?;
         let height = (bottom - 0.5 * MARGIN - top).max(2.0 * TITLE);
         let width = if self.swatches.is_some() { FIGURE } else { inner };
         place(&mut picture, &self.figure, [MARGIN, top], [width, height])?;
@@ -58,13 +61,16 @@ impl Card {
     }
 
     /// The ground with title and caption.
-    fn page(&self, caption: &[String], bottom: f64) -> Result<RgbaImage, ExportError> {
+    fn page(title: &[String], caption: &[String], bottom: f64) -> Result<RgbaImage, ExportError> {
         let size = POINTS.map(|side| side - 2.0 * EDGE);
         let mut panel = Panel::board("card", Rect::from_min_size([0.0; 2], size), Ink::new(InkRole::Plot));
         let mut write = |[x, y]: [f64; 2], text: &str, anchor, size, role: InkRole| {
             panel.marks.push(Mark::text(text, [x - EDGE, y - EDGE], anchor, size, role));
         };
-        write([MARGIN, MARGIN], &self.figure.title, Anchor::LEFT_TOP, TextSize::Heading, InkRole::Text);
+        for (index, line) in title.iter().enumerate() {
+            let at = [MARGIN, MARGIN + TITLE * index as f64];
+            write(at, line, Anchor::LEFT_TOP, TextSize::Heading, InkRole::Text);
+        }
         let right = [POINTS[0] - MARGIN, MARGIN];
         write(right, "Chromascope", Anchor::RIGHT_TOP, TextSize::Body, InkRole::Weak);
         for (index, line) in caption.iter().enumerate() {

@@ -54,6 +54,7 @@ pub struct PageFacts {
     pub lightness_apart: Option<f64>,
     pub has_legend: bool,
     pub has_titles: bool,
+    pub has_plot: bool,
 }
 
 impl PageFacts {
@@ -70,12 +71,11 @@ impl PageFacts {
             _ => None,
         });
         let small = f64::from(TextSize::Small.points());
-        let body = f64::from(TextSize::Body.points());
         let has_ticks = |panel: &Panel| [&panel.x, &panel.y].iter().any(|axis| axis.ticks != Ticks::None);
         let notes = figure.panels.iter().filter(|panel| !panel.note.is_empty()).map(|_| small);
-        let ticks = figure.panels.iter().filter(|panel| has_ticks(panel)).map(|_| body);
+        let ticks = figure.panels.iter().filter(|panel| has_ticks(panel)).map(|_| small);
         let caption = (!figure.caption.is_empty()).then_some(small);
-        let legend = (!figure.legend.is_empty()).then_some(body);
+        let legend = (!figure.legend.is_empty()).then_some(small);
         let texts = texts.chain(notes).chain(ticks).chain(caption).chain(legend);
         let lines = marks().filter_map(|mark: &Mark| Some(mark.stroke?.width)).filter(|width| *width > 0.0);
         Self {
@@ -84,6 +84,7 @@ impl PageFacts {
             thinnest_line_pt: lines.reduce(f64::min).map(|points| points * scale * paper.line_scale),
             lightness_apart: lightness_apart(figure, &paper.colors()),
             has_legend: !figure.legend.is_empty(),
+            has_plot: figure.panels.iter().any(|panel| panel.framed),
             has_titles: figure.panels.iter().any(|panel| !panel.x.label.is_empty() || !panel.y.label.is_empty()),
         }
     }

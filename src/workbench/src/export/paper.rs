@@ -1,10 +1,12 @@
 //! Figures laid out for paper: size, text, lines, inks, legend.
 
-use chromascope_figure::{AxisRanges, AxisTitles, Figure, FigureRoom, LegendPlace, Numbers, Page, PageStyle, TextSize};
+use chromascope_figure::{
+    AxisRanges, AxisTitles, Figure, FigureRoom, LegendPlace, Numbers, Page, PageStyle, Shape, TextSize,
+};
 use chromascope_text::{Flag, Setting, Settings, Words, choices, settings};
 use serde::{Deserialize, Serialize};
 
-use crate::palette::{Colors, SourceInks};
+use crate::palette::{Colors, FONT, FONT_FAMILY, SANS_FAMILY, SANS_FONT, SERIF_FAMILY, SERIF_FONT, SourceInks};
 
 choices! {
     /// Colors of a figure apart from those of its sources.
@@ -17,15 +19,47 @@ choices! {
     }
 }
 
+choices! {
+    /// Typeface of a figure.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum Typeface {
+        #[default]
+        Screen = "screen", "Screen", "DejaVu Sans, as on screen";
+        Sans = "sans", "Sans", "Arimo, with the widths of Arial and Helvetica";
+        Serif = "serif", "Serif", "Tinos, with the widths of Times";
+    }
+}
+
+impl Typeface {
+    /// Families of text, the first one bundled.
+    pub const fn families(self) -> &'static str {
+        match self {
+            Self::Screen => FONT_FAMILY,
+            Self::Sans => SANS_FAMILY,
+            Self::Serif => SERIF_FAMILY,
+        }
+    }
+
+    pub const fn font(self) -> &'static [u8] {
+        match self {
+            Self::Screen => FONT,
+            Self::Sans => SANS_FONT,
+            Self::Serif => SERIF_FONT,
+        }
+    }
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
+#[expect(clippy::struct_excessive_bools, reason = "independent switches of one form")]
 pub struct Paper {
     /// Width in millimeters; `None` takes the figure's own points, and then text has its size on screen.
     pub width_mm: Option<f64>,
     /// Height in millimeters; `None` takes the figure's own proportions.
     pub height_mm: Option<f64>,
-    /// Size of tick labels, names and legend in points; notes and caption are an eighth smaller.
+    /// Size of all text in points; only the name on a report card is larger.
     pub font_pt: f64,
+    pub typeface: Typeface,
     pub line_scale: f64,
     pub style: PaperStyle,
     pub inks: SourceInks,
@@ -35,9 +69,14 @@ pub struct Paper {
     pub axis_titles: AxisTitles,
     /// True if the conditions stand below the figure.
     pub caption: bool,
-    /// True if the chromaticity diagram has its strip below.
+    /// True if the chromaticity diagram has its strip below, its patches, its loci.
     pub strip: bool,
+    pub patches: bool,
+    pub loci: bool,
     pub ranges: AxisRanges,
+    /// Ends of the axes; equal ones for those of the figure.
+    pub x_range: [f64; 2],
+    pub y_range: [f64; 2],
     pub numbers: Numbers,
     pub dpi: f64,
 }
@@ -48,6 +87,7 @@ impl Default for Paper {
             width_mm: None,
             height_mm: None,
             font_pt: 8.0,
+            typeface: Typeface::default(),
             line_scale: 1.0,
             style: PaperStyle::default(),
             inks: SourceInks::default(),
@@ -55,7 +95,11 @@ impl Default for Paper {
             axis_titles: AxisTitles::default(),
             caption: true,
             strip: true,
+            patches: true,
+            loci: true,
             ranges: AxisRanges::default(),
+            x_range: [0.0; 2],
+            y_range: [0.0; 2],
             numbers: Numbers::default(),
             dpi: 300.0,
         }
@@ -86,7 +130,7 @@ impl Settings for Paper {
         "height_mm" "Height" in IN_SIZE, by "", "Height of the page",
             number(|p| p.height_mm.unwrap_or(Self::ONE_COLUMN_MM), |p, to| p.height_mm = Some(to), " mm", Self::SIDE_MM;),
             flag(LENGTH, "height", "LENGTH", " [default: the figure's own proportions]";);
-        "font_pt" "Text" in IN_SIZE, by "", "Size of labels, names and legend in points",
+        "font_pt" "Text" in IN_SIZE, by "", "Size of all text in points",
             field(font_pt, " pt", Self::FONT_PT; step: Some(0.05)),
             flag(PAPER, "font-size", "POINTS", ""; usual: "8", range: Self::FONT_PT, unit: "points");
         "line_scale" "Lines" in IN_SIZE, by "", "Factor on the widths of lines and on markers",
@@ -97,6 +141,8 @@ impl Settings for Paper {
             flag(PAPER, "dpi", "DPI", ""; usual: "300", range: Self::DPI, unit: "pixels per inch");
         "style" "Style" in IN_LOOK, by "", "Colors of ground, text and frames",
             pick(style: PaperStyle, Row), flag(PAPER, "style", "STYLE", ""; usual: "light");
+        "typeface" "Typeface" in IN_LOOK, by "font", "Typeface of text",
+            pick(typeface: Typeface, Row), flag(PAPER, "typeface", "TYPEFACE", ""; usual: "screen");
         "inks" "Colors" in IN_LOOK, by "", "Colors of sources",
             pick(inks: SourceInks, Row), flag(PAPER, "inks", "INKS", ""; usual: "safe");
         "legend" "Legend" in IN_LOOK, by "", "Place of the legend", pick(legend: LegendPlace, List, or AUTOMATIC),
@@ -105,10 +151,20 @@ impl Settings for Paper {
             pick(axis_titles: AxisTitles, Row), flag(PAPER, "axis-titles", "AXIS_TITLES", ""; usual: "inside");
         "ranges" "Axis ranges" in IN_LOOK, by "", "Ranges of the axes of plots that can be zoomed",
             pick(ranges: AxisRanges, Row), elsewhere("range");
+        "x_range" "x" in IN_LOOK, by "axis limits", "Ends of the horizontal axis; equal ones for the figure's own",
+            pair("from", "Left end", "to", "Right end"; x_range, "", Self::AXIS),
+            flag(PAPER, "x-range", "FROM,TO", " [default: the figure's own]"; range: Self::AXIS);
+        "y_range" "y" in IN_LOOK, by "axis limits", "Ends of the vertical axis of the first plot; equal ones for the figure's own",
+            pair("from", "Lower end", "to", "Upper end"; y_range, "", Self::AXIS),
+            flag(PAPER, "y-range", "FROM,TO", " [default: the figure's own]"; range: Self::AXIS);
         "numbers" "Numbers" in IN_LOOK, by "", "Numbers of a CSV",
             pick(numbers: Numbers, Row), flag(PAPER, "numbers", "NUMBERS", ""; usual: "all");
         "strip" "Strip of distances below the diagram" in IN_LOOK, by "", "Strip of distances below the chromaticity diagram",
             switch(|p| p.strip, |p, on| p.strip = on), flag(PAPER, "no-strip", "", ", omitted";);
+        "patches" "Patches in the diagram" in IN_LOOK, by "", "Patches in the chromaticity diagram",
+            switch(|p| p.patches, |p, on| p.patches = on), flag(PAPER, "no-patches", "", ", omitted";);
+        "loci" "Loci in the diagram" in IN_LOOK, by "", "Planckian loci in the chromaticity diagram",
+            switch(|p| p.loci, |p, on| p.loci = on), flag(PAPER, "no-loci", "", ", omitted";);
         "caption" "Caption with the conditions" in IN_LOOK, by "", "Caption with the conditions",
             switch(|p| p.caption, |p, on| p.caption = on), flag(PAPER, "no-caption", "", ", omitted";);
     };
@@ -121,6 +177,8 @@ impl Paper {
     pub const TWO_COLUMNS_MM: f64 = 174.0;
     /// Range of width and height in millimeters.
     pub const SIDE_MM: [f64; 2] = [20.0, 2000.0];
+    /// Range of the ends of an axis.
+    pub const AXIS: [f64; 2] = [-1e6, 1e6];
     pub const FONT_PT: [f64; 2] = [3.0, 48.0];
     pub const LINE_SCALE: [f64; 2] = [0.1, 10.0];
     pub const DPI: [f64; 2] = [36.0, 2400.0];
@@ -146,7 +204,7 @@ impl Paper {
 
     /// Points on paper for each point of a figure laid out.
     pub fn scale(&self) -> f64 {
-        self.font_pt.max(0.1) / f64::from(TextSize::Body.points())
+        self.font_pt.max(0.1) / f64::from(TextSize::Small.points())
     }
 
     /// A figure laid out for this paper, so that its text has the size wanted there. `make` makes it for a room.
@@ -154,8 +212,15 @@ impl Paper {
         // Text is laid out in its size on screen, and the page scaled.
         let points = |mm: f64| mm / 25.4 * 72.0 / self.scale();
         let mut make = |room| make(room).map(|figure| self.dressed(figure));
-        let mut room =
-            FigureRoom { strip: self.strip, ranges: self.ranges, numbers: self.numbers, ..FigureRoom::default() };
+        let mut room = FigureRoom {
+            strip: self.strip,
+            patches: self.patches,
+            loci: self.loci,
+            ranges: self.ranges,
+            limits: [self.x_range, self.y_range],
+            numbers: self.numbers,
+            ..FigureRoom::default()
+        };
         let Some(width) = self.width_mm.map(points) else { return make(room) };
         room.width = Some(width);
         let mut figure = make(room)?;
@@ -189,6 +254,12 @@ impl Paper {
         }
         if !self.caption {
             figure.caption.clear();
+        }
+        // One size of text for all of a page.
+        for mark in figure.panels.iter_mut().flat_map(|panel| &mut panel.marks) {
+            if let Shape::Text { size: size @ TextSize::Body, .. } = &mut mark.shape {
+                *size = TextSize::Small;
+            }
         }
         figure
     }

@@ -73,6 +73,8 @@ pub fn build(scene: &Scene<'_>, look: &FigureLook, size: [f64; 2]) -> Built {
         Box::new(finish(draw(scene, look, frame, false), "Data, enlarged", area, frame))
     });
     let mut built = Built { lens, ..finish(drawing, "Chromaticity", area, frame) };
+    built.panel.note =
+        scene.document.exaggeration.note().filter(|_| scene.document.overlays.patches).unwrap_or_default();
     if let Some(lens) = &built.lens {
         clear_for_lens(&mut built.panel, lens.panel.area, &frame);
     }
@@ -183,7 +185,8 @@ const SIZE: [f64; 2] = [640.0, 480.0];
 /// Height in points of the strip below it.
 pub const STRIP: f64 = 136.0;
 
-pub static KIND: FigureKind = FigureKind::new("chromaticity", "The chromaticity diagram with loci and patches", figure);
+pub static KIND: FigureKind =
+    FigureKind::new("chromaticity", "The chromaticity diagram with loci and patches", figure).in_report();
 
 /// The figure as it is saved: diagram, strip, legend, caption, and the numbers of all points.
 #[allow(clippy::unnecessary_wraps, reason = "other kinds of figures can have nothing to draw")]
@@ -194,6 +197,10 @@ fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figu
 
 /// The figure with a diagram of a size in points.
 pub fn figure_sized(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom, size: [f64; 2]) -> Figure {
+    let mut document = scene.document.clone();
+    document.overlays.patches &= room.patches;
+    document.overlays.loci &= room.loci;
+    let scene = &Scene { document: &document, ..*scene };
     // Neither hovering nor a pinned pixel is shown on paper.
     let mut paper = FigureLook { fit: look.fit, ..FigureLook::default() };
     match room.ranges {
@@ -218,7 +225,7 @@ pub fn figure_sized(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom, size
     }
     figure.legend = scene.visible_sources().iter().map(legend_entry).collect();
     figure.legend_place = LegendPlace::Outside;
-    figure.caption = caption(scene);
+    figure.caption = format!("{}{}", caption(scene), scene.document.exaggeration.sentence());
     figure.table = table(scene);
     if room.numbers == Numbers::Visible {
         keep_inside(&mut figure.table, scene.document.diagram, [shown.x, shown.y]);
@@ -255,6 +262,19 @@ pub fn key(source: &ComparedSensor, name: String) -> LegendEntry {
 
 /// The conditions of a diagram in sentences.
 pub fn caption(scene: &Scene<'_>) -> String {
+    let overlays = scene.document.overlays;
+    let temperature = scene.document.temperature_k;
+    let parts = [
+        Some(viewing_conditions(scene)),
+        overlays.patches.then(|| patches_words(scene)),
+        Some(transform_words(scene)),
+        overlays.loci.then(|| format!("{} Large ring: {temperature:.0} K.", loci_words(scene))),
+    ];
+    parts.into_iter().flatten().collect::<Vec<_>>().join(" ")
+}
+
+/// Range and normalization of the loci in sentences, and where they are extrapolated.
+pub fn loci_words(scene: &Scene<'_>) -> String {
     let cut =
         |source: &&ComparedSensor| source.visible && scene.extrapolated_below(source.kind, &source.name).is_some();
     let cut: Vec<String> = scene.sources().iter().filter(cut).map(|source| source.label.clone()).collect();
@@ -263,11 +283,21 @@ pub fn caption(scene: &Scene<'_>) -> String {
     } else {
         format!(" Dotted below {TAIL_BELOW_K:.0} K, where the sensitivity table ends too early: {}.", cut.join(", "))
     };
-    format!("{} Loci from 1000 to 20000 K, normalized to {}.{dotted}", conditions(scene), scene.locus_balance())
+    format!("Loci from 1000 to 20000 K, normalized to {}.{dotted}", scene.locus_balance())
 }
 
 /// The conditions in sentences.
 pub fn conditions(scene: &Scene<'_>) -> String {
+    [viewing_conditions(scene), patches_words(scene), transform_words(scene)].join(" ")
+}
+
+/// The patches in a sentence.
+pub fn patches_words(scene: &Scene<'_>) -> String {
+    format!("Patches: {}.", scene.document.chart)
+}
+
+/// The color transform in a sentence.
+pub fn transform_words(scene: &Scene<'_>) -> String {
     let transform = match &scene.document.transform {
         TransformChoice::Paper => "Paper matrix (Eq 13), CIE observers drawn directly".to_owned(),
         TransformChoice::Observer(name) if scene.document.correction.is_default_fit() => {
@@ -275,7 +305,7 @@ pub fn conditions(scene: &Scene<'_>) -> String {
         }
         TransformChoice::Observer(name) => scene.document.correction.describe(name),
     };
-    format!("{} Patches: {}. Color transform: {transform}.", viewing_conditions(scene), scene.document.chart)
+    format!("Color transform: {transform}.")
 }
 
 /// The conditions that have nothing to do with patches and diagram, in sentences.

@@ -14,14 +14,23 @@ use crate::scene::Scene;
 
 const SIZE: [f64; 2] = [460.0, 240.0];
 
+/// Temperatures that are written below, in kelvins.
+const ROUND_K: [f64; 12] =
+    [1500.0, 2000.0, 2500.0, 3000.0, 3500.0, 4000.0, 5000.0, 6000.0, 7000.0, 8000.0, 10_000.0, 15_000.0];
+
 /// A curve: its name, its values, its looks.
-type Curve = (&'static str, fn(&TwoLightPoint) -> f64, InkRole, Dash);
+type Curve = (fn(&CorrectionFile) -> String, fn(&TwoLightPoint) -> f64, InkRole, Dash);
 
 const CURVES: [Curve; 4] = [
-    ("first light's matrix", |point| point.first, InkRole::Sensor(0), Dash::Dashed),
-    ("second light's matrix", |point| point.second, InkRole::Sensor(1), Dash::Dashed),
-    ("fitted at each temperature", |point| point.own, InkRole::Weak, Dash::Dotted),
-    ("mixed as DNG readers do", |point| point.mixed, InkRole::Text, Dash::Solid),
+    (|file| format!("matrix of {}", file.of.lights[0]), |point| point.first, InkRole::Sensor(0), Dash::Dashed),
+    (
+        |file| format!("matrix of {}", file.of.lights.last().map_or("", String::as_str)),
+        |point| point.second,
+        InkRole::Sensor(1),
+        Dash::Dashed,
+    ),
+    (|_| "fitted at each temperature".to_owned(), |point| point.own, InkRole::Weak, Dash::Dotted),
+    (|_| "mixed as DNG readers do".to_owned(), |point| point.mixed, InkRole::Text, Dash::Solid),
 ];
 
 pub static KIND: FigureKind =
@@ -34,13 +43,19 @@ fn figure(_: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> 
     figure.panels.push(panel(file, figure.size)?);
     figure.legend = CURVES
         .map(|(name, _, role, dash)| LegendEntry {
-            name: name.to_owned(),
+            name: name(file),
             stroke: Some(Stroke { dash, ..Stroke::solid(role, 1.5) }),
             marker: None,
             fill: None,
         })
         .to_vec();
     figure.legend_place = LegendPlace::Inside;
+    let [first, last] = [file.of.lights.first(), file.of.lights.last()].map(|light| light.map_or("", String::as_str));
+    figure.caption = format!(
+        "{}: mean ΔE*00 of the training reflectances under blackbodies between {first} and {last}, by the \
+         matrix of either light, by both mixed, and by one fitted at each temperature.",
+        file.of.camera
+    );
     figure.table = Table::of(&COLUMNS, file.sheet.between.iter().flatten());
     Some(figure)
 }
@@ -65,8 +80,7 @@ pub fn panel(file: &CorrectionFile, size: [f64; 2]) -> Option<Panel> {
     let top = CURVES.iter().flat_map(|(_, of, ..)| values(*of)).fold(0.0, f64::max);
     let mired = |point: &TwoLightPoint| point.temperature.mired();
     let cold_to_hot = [mired(first).max(mired(last)), mired(first).min(mired(last))];
-    let ticks = (0..5).filter_map(|i| points.get(i * (points.len() - 1) / 4));
-    let ticks = ticks.map(|point| (mired(point), format!("{:.0}", point.temperature.get()))).collect();
+    let ticks = ROUND_K.map(|kelvin| (1e6 / kelvin, format!("{kelvin:.0}"))).into();
     let x = Axis::new("color temperature (K)", cold_to_hot).with_ticks(Ticks::At(ticks)).with_grid(true);
     let y = Axis::new("mean ΔE*00", [0.0, (top * 1.1).max(1e-6)]).with_grid(true);
     let mut panel = Panel::new(title(file), Rect::from_min_size([0.0, 0.0], size), x, y);
@@ -76,7 +90,7 @@ pub fn panel(file: &CorrectionFile, size: [f64; 2]) -> Option<Panel> {
         .map(|(index, (name, of, role, dash))| {
             let line =
                 Shape::Line { points: points.iter().map(|point| [mired(point), of(point)]).collect(), closed: false };
-            Mark::new(Tag(index as u32), *name, line).with_stroke(*role, 1.5).with_dash(*dash)
+            Mark::new(Tag(index as u32), name(file), line).with_stroke(*role, 1.5).with_dash(*dash)
         })
         .collect();
     Some(panel)
@@ -87,11 +101,11 @@ pub fn at(file: &CorrectionFile, mired: f64) -> Option<Vec<String>> {
     let points = file.sheet.between.as_ref()?;
     let distance = |point: &TwoLightPoint| (point.temperature.mired() - mired).abs();
     let nearest = points.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-    let lines = CURVES.iter().map(|(name, of, ..)| format!("{name}: {:.3}", of(nearest)));
+    let lines = CURVES.iter().map(|(name, of, ..)| format!("{}: {:.3}", name(file), of(nearest)));
     Some(std::iter::once(format!("{:.0} K, mean ΔE*00", nearest.temperature.get())).chain(lines).collect())
 }
 
 /// The curves' names with their inks, for a key.
-pub fn key() -> impl Iterator<Item = (&'static str, InkRole)> {
-    CURVES.iter().map(|(name, _, role, _)| (*name, *role))
+pub fn key(file: &CorrectionFile) -> impl Iterator<Item = (String, InkRole)> {
+    CURVES.iter().map(|(name, _, role, _)| (name(file), *role))
 }

@@ -43,7 +43,10 @@ pub fn panel(curves: &Curves, size: [f64; 2], hovered: Option<usize>) -> Panel {
     let y = Axis::new(curves.quantity.clone(), range);
     let mut panel = Panel::new("curves of the file", Rect::from_min_size([0.0, 0.0], size), x, y);
     panel.note = curves.beyond().map_or_else(|| curves.note.clone(), |beyond| format!("{}; {beyond}", curves.note));
-    panel.marks.push(visible(range));
+    let [first, last] = curves.range_nm();
+    if first < FIRST_NM || last > LAST_NM {
+        panel.marks.push(visible(range));
+    }
     panel.marks.push(zero(curves.range_nm()));
     let count = curves.drawn.len();
     let within = |at: &&([f64; 2], f64)| !clipped || (low..=high).contains(&at.0[1]);
@@ -156,7 +159,9 @@ fn figure(_: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> 
     let mut panel = panel(&drawn, size, None);
     panel.name.clone_from(&curves.title);
     figure.panels.push(panel);
-    if (2..=NAMED).contains(&drawn.drawn.len()) {
+    // Channels have their letters at the curves.
+    let has_letters = drawn.drawn.iter().all(|curve| curve.channel.is_some());
+    if (2..=NAMED).contains(&drawn.drawn.len()) && !has_letters {
         let entry = |curve: &Curve| LegendEntry {
             name: curve.name.clone(),
             stroke: Some(Stroke::solid(ink(curve, drawn.drawn.len(), false), 2.0)),

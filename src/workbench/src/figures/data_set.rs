@@ -48,6 +48,21 @@ pub fn panel(ask: &impl Ask, entry: &Entry, role: InkRole, size: [f64; 2]) -> Re
     Ok(Some(panel))
 }
 
+/// The same without axes and names, for a cell of a table.
+pub fn sparkline(ask: &impl Ask, entry: &Entry, role: InkRole, size: [f64; 2]) -> Result<Option<Panel>, LoadError> {
+    let all = curves(&entry.place, ask)?;
+    let drawn = drawn(entry, &all);
+    let high =
+        drawn.iter().flat_map(|(_, points)| points.iter().map(|point| point[1])).fold(f64::MIN_POSITIVE, f64::max);
+    let [x, y] = [Axis::hidden([FIRST_NM, LAST_NM]), Axis::hidden([-0.05 * high, 1.05 * high])];
+    let mut panel = Panel::new(String::new(), Rect::from_min_size([0.0, 0.0], size), x, y);
+    for (_, points) in drawn {
+        let line = Shape::Line { points, closed: false };
+        panel.marks.push(Mark::new(PickIndex::NONE, "", line).with_stroke(role, 1.0));
+    }
+    Ok((!panel.marks.is_empty()).then_some(panel))
+}
+
 /// Names and points of the curves that are drawn.
 fn drawn(entry: &Entry, all: &[(String, SpectralDistribution)]) -> Vec<(String, Vec<[f64; 2]>)> {
     let relative = matches!(entry.kind, SetKind::Camera | SetKind::Observer | SetKind::Illuminant | SetKind::Unsorted);

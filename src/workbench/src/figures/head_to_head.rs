@@ -1,26 +1,21 @@
-//! Two cameras side by side as a figure: each metric with both values and their difference.
+//! Two cameras against each other as a figure: the difference of each metric about 0; its numbers hold both values.
 
 use chromascope_core::query::CameraMetric;
-use chromascope_figure::{
-    Anchor, Cell, Figure, FigureRoom, Ink, InkRole, Mark, Panel, Rect, Shape, Table, Tag, TextSize, text_width,
-};
+use chromascope_figure::{Cell, Figure, FigureRoom, InkRole, Marker, Table};
 
 use super::chromaticity::conditions;
 use super::kind::FigureKind;
 use super::look::FigureLook;
-use super::metrics::{DIFFERENCE, VALUES, head_to_head, uncertainties, value};
+use super::metrics::{DIFFERENCE, VALUES, differ, difference, head_to_head, is_better, uncertainties, value};
+use super::whiskers::{self, Row};
 use crate::document::SetKind;
 use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::Scene;
 use crate::scene::metrics::Ranked;
 use crate::scene::uncertainty::with_nature;
 
-/// Width of a saved figure in points, and height of a row.
-const WIDTH: f64 = 640.0;
-const ROW: f64 = 18.0;
-/// Columns of the figure, and the air behind each.
-const COLUMNS: usize = 5;
-const GAP: f64 = 14.0;
+/// Width of a saved figure in points.
+const WIDTH: f64 = 560.0;
 
 /// The two cameras, as indices in the ranking: chosen, else the selected one and the first compared one.
 pub fn pair(ranked: &Ranked, scene: &Scene<'_>, look: &FigureLook) -> [Option<usize>; 2] {
@@ -41,64 +36,46 @@ pub fn pair(ranked: &Ranked, scene: &Scene<'_>, look: &FigureLook) -> [Option<us
 }
 
 pub static KIND: FigureKind =
-    FigureKind::new("head-to-head", "All figures of merit of two cameras", figure).of_metrics();
+    FigureKind::new("head-to-head", "Differences of two cameras in all figures of merit", figure).of_metrics();
 
 fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
     let ranked = scene.ranked(look.cameras);
     let [Some(a), Some(b)] = pair(&ranked, scene, look) else { return None };
-    let table = head_to_head(&ranked, [a, b]);
-    let rows = rows(&table);
-    let width_of = |words: &str| text_width(words, TextSize::Small);
-    let widest = |column: usize| rows.iter().map(|row| width_of(&row[column])).fold(30.0, f64::max) + GAP;
-    let least: f64 = 12.0 + (0..COLUMNS).map(widest).sum::<f64>();
-    let width = room.width.unwrap_or(WIDTH).max(least);
     let [name_a, name_b] = [a, b].map(|camera| ranked.cameras[camera].id.name.as_str());
-    let mut figure = Figure::new(format!("{name_a} and {name_b}"), [width, ROW * (rows.len() as f64 + 3.0)]);
-    let mut panel = Panel::board("Head to head", Rect::from_min_size([0.0, 0.0], figure.size), Ink::new(InkRole::Plot));
-    // Left ends of the columns, with the spare room before the numbers.
-    let spare = (width - least) / (COLUMNS - 1) as f64;
-    let mut left = 6.0;
-    let lefts: Vec<f64> = (0..COLUMNS)
-        .map(|column| {
-            let at = left + if column > 0 { spare } else { 0.0 };
-            left = at + widest(column);
-            at
-        })
-        .collect();
-    let mut line = 0.5;
-    let text = |words: &str, at, size| Mark::text(words, at, Anchor::LEFT, size, InkRole::Text);
-    for (letter, name) in [("A", name_a), ("B", name_b)] {
-        panel.marks.push(text(&format!("{letter}: {name}"), [6.0, ROW * line], TextSize::Body));
-        line += 1.0;
-    }
-    let heads = ["", "A", "B", "A − B", "better"];
-    for (head, x) in heads.into_iter().zip(&lefts).skip(1) {
-        panel.marks.push(text(head, [*x, ROW * line], TextSize::Small));
-    }
-    let rule = Shape::Segments { segments: vec![[[0.0, ROW * (line + 0.5)], [width, ROW * (line + 0.5)]]] };
-    panel.marks.push(Mark::new(Tag::default(), "rule", rule).with_stroke(InkRole::Line, 1.0));
-    for row in rows {
-        line += 1.0;
-        for (words, x) in row.iter().zip(&lefts) {
-            panel.marks.push(text(words, [*x, ROW * line], TextSize::Small));
-        }
-    }
-    figure.panels.push(panel);
+    let rows: Vec<Row> = CameraMetric::ALL.iter().filter_map(|metric| row(&ranked, [a, b], *metric)).collect();
+    let mut figure = Figure::new(format!("{name_a} and {name_b}"), [0.0; 2]);
+    let width = room.width.unwrap_or(WIDTH);
+    figure.panels = whiskers::panels(&rows, "A − B, % of the larger", width, true).into();
+    figure.size = figure.panels[0].area.max;
     let known: Vec<_> = uncertainties(&ranked, [a, b]).collect();
     figure.caption = format!(
-        "A: {name_a}. B: {name_b}. Better: at 95 %, where the difference exceeds k u of the difference. {} {}",
-        scene.metrics_words_with(known),
+        "A: {name_a}. B: {name_b}. Differences A − B in percent of the larger value, with whiskers to 95 %; filled and \
+         lettered where they exceed them: A or B is better, or they only differ (≠). {} {}",
+        scene.metrics_words_with(CameraMetric::ALL, known),
         conditions(scene)
     );
-    figure.table =
-        numbers(&ranked, [a, b], table).with_constants(scene.metrics_constants(scene.document.temperature_k));
+    figure.table = numbers(&ranked, [a, b], head_to_head(&ranked, [a, b]))
+        .with_constants(scene.metrics_constants(scene.document.temperature_k));
     Some(figure)
 }
 
-/// Rows of the figure in words: metric, A, B, their difference and the better one; metrics without a difference are omitted.
-fn rows(table: &Table) -> Vec<[String; COLUMNS]> {
-    let rows = (0..table.rows.len()).filter(|&row| table.cell(row, DIFFERENCE).number().is_some());
-    rows.map(|row| [0, VALUES[0], VALUES[1], DIFFERENCE, 2].map(|column| table.cell(row, column).in_words())).collect()
+/// Difference of a metric by the larger of its values; none where it is undefined.
+fn row(ranked: &Ranked, cameras: [usize; 2], metric: CameraMetric) -> Option<Row> {
+    let [a, b] = cameras.map(|camera| value(ranked, camera, metric));
+    let (a, b) = a.zip(b)?;
+    let larger = a.value.ok()?.abs().max(b.value.ok()?.abs()).max(f64::MIN_POSITIVE);
+    let difference = difference(a, b)?;
+    let reach = difference.uncertainty.map_or(0.0, |by| by.coverage * by.standard);
+    let is_significant = differ(a, b) == Some(true);
+    let better = if is_significant { is_better(metric, a, b).map_or("≠", |a| if a { "A" } else { "B" }) } else { "" };
+    Some(Row {
+        name: metric.symbol.to_owned(),
+        behind: better.to_owned(),
+        ink: InkRole::Text.into(),
+        marker: Marker::Circle,
+        is_filled: is_significant,
+        value: Some([difference.value.ok()?, reach].map(|value| 100.0 * value / larger)),
+    })
 }
 
 fn numbers(ranked: &Ranked, cameras: [usize; 2], mut table: Table) -> Table {

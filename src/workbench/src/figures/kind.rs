@@ -18,6 +18,8 @@ pub struct FigureKind {
     pub needs: Need,
     /// True if it shows figures of merit: where no temperature is chosen, those of the same one as in `compare`.
     pub is_of_metrics: bool,
+    /// True if it is part of a report on a comparison.
+    pub is_reported: bool,
     draw: Draw,
 }
 
@@ -37,7 +39,7 @@ pub enum Need {
 
 impl FigureKind {
     pub(super) const fn new(key: &'static str, help: &'static str, draw: Draw) -> Self {
-        Self { key, help, needs: Need::Nothing, is_of_metrics: false, draw }
+        Self { key, help, needs: Need::Nothing, is_of_metrics: false, is_reported: false, draw }
     }
 
     pub(super) const fn needing(self, needs: Need) -> Self {
@@ -48,8 +50,33 @@ impl FigureKind {
         Self { is_of_metrics: true, ..self }
     }
 
+    pub(super) const fn in_report(self) -> Self {
+        Self { is_reported: true, ..self }
+    }
+
     /// The figure with its numbers in a room; none while there is nothing to draw.
     pub fn figure(&self, scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
+        let figure = self.zoomed(scene, look, room)?;
+        let own = figure.panels.iter().find(|panel| panel.framed).map(|panel| [panel.x.range, panel.y.range]);
+        let Some(own) = own.filter(|_| room.limits.iter().any(|[from, to]| from != to)) else { return Some(figure) };
+        // The diagram is drawn anew for its ranges, so that its labels find their places.
+        let ranges =
+            [0, 1].map(|axis| if room.limits[axis][0] == room.limits[axis][1] { own[axis] } else { room.limits[axis] });
+        let mut look = look.clone();
+        look.diagram.zoomed = Some(ranges);
+        let mut figure = self.zoomed(scene, &look, FigureRoom { ranges: AxisRanges::Screen, ..room })?;
+        let mut plots = figure.panels.iter_mut().filter(|panel| panel.framed && !panel.equal_aspect);
+        if let Some(first) = plots.next().filter(|first| [first.x.range, first.y.range] == own) {
+            [first.x.range, first.y.range] = ranges;
+        }
+        // Plots below it share its horizontal axis, and the one where that is written.
+        let below = figure.panels.iter_mut().filter(|panel| !panel.equal_aspect && panel.x.range == own[0]);
+        below.for_each(|panel| panel.x.range = ranges[0]);
+        Some(figure)
+    }
+
+    /// The figure in the ranges that the window's plot is zoomed to.
+    fn zoomed(&self, scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
         let mut figure = (self.draw)(scene, look, room)?;
         let zoom = look.zoom.as_ref().filter(|(title, _)| room.ranges == AxisRanges::Screen && *title == figure.title);
         if let Some(((_, [x, y]), panel)) = zoom.zip(figure.panels.first_mut()) {

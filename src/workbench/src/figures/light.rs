@@ -28,21 +28,24 @@ const RADIUS: f64 = 1.55;
 pub fn bars(rendition: &Rendition, area: Rect) -> Option<Panel> {
     let indices = rendition.rendering.as_ref().ok()?;
     let values: Vec<(String, f64)> = std::iter::once(("Ra".to_owned(), indices.general))
-        .chain(indices.special.iter().enumerate().map(|(index, value)| (format!("R{}", index + 1), *value)))
+        .chain(indices.special.iter().enumerate().map(|(index, value)| ((index + 1).to_string(), *value)))
         .collect();
     let low = values.iter().map(|(_, value)| *value).fold(0.0, f64::min);
-    let floor = if low < 0.0 { (low / 50.0).floor() * 50.0 } else { 0.0 };
+    let floor = if low < 0.0 { ((low - 20.0) / 50.0).floor() * 50.0 } else { 0.0 };
     let names = values.iter().enumerate().map(|(index, (name, _))| (index as f64 + 0.5, name.clone())).collect();
     // Numbers that are wider than a bar's place stand in two lines in turn.
     let count = values.len() as f64;
-    let widest = values.iter().map(|(_, value)| text_width(&fixed(*value, 0), TextSize::Small)).fold(0.0, f64::max);
+    let above = values.iter().filter(|(_, value)| *value >= 0.0);
+    let widest = above.map(|(_, value)| text_width(&fixed(*value, 0), TextSize::Small)).fold(0.0, f64::max);
     let staggers = widest + NUMBER_GAP > (area.width() - Projection::LEFT) / count;
     let beyond = if staggers { 0.3 } else { 0.0 };
     let x = Axis::new("test color (Ra: mean of R1 to R8)", [-beyond, count + beyond])
         .with_ticks(Ticks::At(names))
         .with_grid(false);
     let y = Axis::new("color rendering index", [floor, if staggers { 170.0 } else { 140.0 }])
-        .with_ticks(Ticks::Auto)
+        .with_ticks(Ticks::At(
+            [-100.0, -50.0, 0.0, 50.0, 100.0].map(|at| (at, format!("{at:.0}").replace('-', "−"))).into(),
+        ))
         .with_grid(true);
     let mut panel = Panel::new("rendering indices", area, x, y);
     for (index, (name, value)) in values.iter().enumerate() {
@@ -51,11 +54,12 @@ pub fn bars(rendition: &Rendition, area: Rect) -> Option<Panel> {
         let role = if index == 0 { InkRole::Text } else { InkRole::Weak };
         panel.marks.push(Mark::new(Tag::default(), format!("{name} {value:.1}"), bar).with_fill(role));
     }
-    let mut panel = panel.with_headroom(if staggers { 28.0 } else { 14.0 });
+    let mut panel = panel.with_headroom(if staggers { 32.0 } else { 18.0 });
     let mut labels = Labels::new(&panel);
     for (index, (_, value)) in values.iter().enumerate() {
-        let at = [index as f64 + 0.5, value.max(0.0)];
-        let places = [0.0, 14.0].map(|lift| Place { at, anchor: Anchor::BOTTOM, offset: [0.0, -1.0 - lift] });
+        let at = [index as f64 + 0.5, *value];
+        let (anchor, up) = if *value < 0.0 { (Anchor::TOP, -1.0) } else { (Anchor::BOTTOM, 1.0) };
+        let places = [1.0, 15.0].map(|lift| Place { at, anchor, offset: [0.0, -up * lift] });
         labels.place(&Label { starts: vec![at], ..Label::new(fixed(*value, 0), InkRole::Text, places.to_vec()) });
     }
     panel.marks.extend(labels.into_marks());
@@ -70,7 +74,7 @@ pub fn vectors(rendition: &Rendition, area: Rect) -> Option<Panel> {
     let fidelity = rendition.fidelity.as_ref().ok()?;
     let axis = || Axis::hidden([-RADIUS, RADIUS]);
     let mut panel = Panel::new("color vectors", area, axis(), axis());
-    panel.equal_aspect = true;
+    (panel.equal_aspect, panel.framed) = (true, false);
     let circle = |radius: f64| {
         let points = (0..96).map(|i| TAU * f64::from(i) / 96.0).map(|t| [radius * t.cos(), radius * t.sin()]).collect();
         Shape::Line { points, closed: true }
@@ -137,7 +141,7 @@ fn figure(scene: &Scene<'_>, _: &FigureLook, room: FigureRoom) -> Option<Figure>
     let [width, mut height] = room.size(SIZE, 0.0);
     let is_narrow = width < NARROW;
     if is_narrow && room.height.is_none() {
-        height = 1.1 * width;
+        height = 1.25 * width;
     }
     // Bars beside the vectors, or above them.
     let (first, second) = if is_narrow {

@@ -35,6 +35,7 @@ pub struct FigureLook {
     pub swatch_layout: SwatchLayout,
     pub swatch_style: SwatchStyle,
     pub without_bars: bool,
+    pub difference_plane: DifferencePlane,
     pub spectra_layout: SpectraLayout,
     pub mode: RenderMode,
     /// The gray around pictures.
@@ -75,6 +76,18 @@ choices! {
         Split = "split", "Split", "Left half: reference; right half: sensor";
         Inset = "inset", "Inset", "The reference inside";
         Whole = "whole", "Sensor only", "The sensor without the reference";
+    }
+}
+
+choices! {
+    /// Plane in which differences are arrows from the reference at its origin, or those of loci along temperature.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum DifferencePlane {
+        #[default]
+        UvPrime = "uv-prime", "Δu′v′", "Patches in the CIE 1976 diagram, perceptually more uniform than xy";
+        Lab = "lab", "Δa*b*", "Patches in CIELAB, seen along L*";
+        Xy = "xy", "Δxy", "Patches in the CIE 1931 diagram";
+        Loci = "loci", "Loci", "Planckian loci: offset from the reference's, across and along, over the temperature";
     }
 }
 

@@ -2,13 +2,13 @@
 
 use chromascope_core::query::metrics::{Better, Difference, rank_ranges};
 use chromascope_core::query::{CameraMetric, MetricUncertainty, MetricValue, WhyNot};
-use chromascope_figure::{
-    Anchor, Cell, Figure, FigureRoom, Ink, InkRole, Mark, Note, Panel, Rect, Shape, Table, Tag, TextSize, text_width,
-};
+use chromascope_figure::{Cell, Figure, FigureRoom, InkRole, Marker, Note, Table};
 
 use super::chromaticity::conditions;
 use super::kind::FigureKind;
 use super::look::{FigureLook, Sorting};
+use super::whiskers::{self, Row};
+use crate::format::rank_in_words;
 use crate::scene::Scene;
 use crate::scene::metrics::{CameraFigures, Ranked};
 use crate::scene::uncertainty::{self, cell, number, uncertainty, unit, with_nature};
@@ -19,6 +19,10 @@ pub const TABLE: &str = "Metrics";
 pub const FIRST: &str = "delta-e2000-mean";
 /// The metric where the first has no meaning.
 pub const FIRST_EQ_13: &str = "xy-mean";
+
+/// Metrics by their ids that are shown where none are chosen.
+pub const USUAL: &str =
+    "delta-e2000-mean delta-e2000-p95 delta-e2000-max metamerism-index vora luther cct-error noise-gain";
 
 /// The metric that rows are sorted by: the column's, or the first one that has a meaning under the color transform.
 pub fn sorted_by(scene: &Scene<'_>, sorting: Option<&Sorting>) -> Option<CameraMetric> {
@@ -77,6 +81,15 @@ pub fn table(ranked: &Ranked) -> Table {
     })
 }
 
+/// Inserts the patch of each camera that differs most, by the document's metric; without a place at the end.
+pub fn insert_worst(table: &mut Table, ranked: &Ranked, scene: &Scene<'_>, at: Option<usize>) {
+    let patches = scene.patches();
+    let names: Vec<String> = patches.iter().flat_map(|set| set.patches()).map(|patch| patch.name.clone()).collect();
+    let rows = (0..ranked.cameras.len()).map(|camera| figures(ranked, camera).map(|figures| &*figures.metrics));
+    let at = at.unwrap_or(table.columns.len());
+    uncertainty::insert_worst(table, at, (scene.document.difference, &names), rows);
+}
+
 /// Uncertainties of cameras in all metrics, where they are known.
 pub fn uncertainties(
     ranked: &Ranked,
@@ -84,6 +97,14 @@ pub fn uncertainties(
 ) -> impl Iterator<Item = MetricUncertainty> {
     let all = cameras.into_iter().filter_map(|camera| figures(ranked, camera)?.uncertainties.as_ref());
     all.flat_map(|all| all.iter().copied().flatten())
+}
+
+/// All figures of merit of all cameras with their uncertainties and conditions, as they are written to files.
+pub fn numbers(scene: &Scene<'_>, ranked: &Ranked) -> Table {
+    let mut numbers = table(ranked);
+    insert_worst(&mut numbers, ranked, scene, None);
+    let numbers = with_nature(numbers, |camera| uncertainties(ranked, [camera]));
+    numbers.with_constants(scene.metrics_constants(scene.document.temperature_k))
 }
 
 /// Columns of the difference of two cameras, and of their values.
@@ -139,67 +160,92 @@ pub fn difference(a: MetricValue, b: MetricValue) -> Option<MetricValue> {
 }
 
 const WIDTH: f64 = 640.0;
-const ROW: f64 = 16.0;
+/// Width below which numbers are left out: there is the axis.
+const NARROW: f64 = 450.0;
+/// Largest number of cameras in a figure that has no height of its own.
+const MOST: usize = 24;
 
 pub static KIND: FigureKind =
-    FigureKind::new("metrics", "Cameras ranked by their first figure of merit", figure).of_metrics();
+    FigureKind::new("metrics", "Cameras ranked by their first figure of merit", figure).of_metrics().in_report();
+
+/// Places that are shown: all of few, else those that must be, the last, and the first.
+fn shown(count: usize, most: usize, must: impl Fn(usize) -> bool) -> Vec<usize> {
+    let must = |place: &usize| count <= most || must(*place) || place + 1 == count;
+    let mut free = most.saturating_sub((0..count).filter(must).count());
+    let mut takes = |place: &usize| {
+        let is_free = free > 0;
+        let is_kept = must(place);
+        free -= usize::from(is_free && !is_kept);
+        is_kept || is_free
+    };
+    (0..count).filter(|place| takes(place)).collect()
+}
 
 /// Cameras in order of the metric by which the table is sorted, with uncertainties, and the table of all numbers.
 fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
     let ranked = scene.ranked(look.cameras);
     let metric = sorted_by(scene, look.sorting.as_ref()).or_else(|| first(scene))?;
-    let mut rows: Vec<(usize, MetricValue, f64)> = (0..ranked.cameras.len())
+    let mut order: Vec<(usize, MetricValue, f64)> = (0..ranked.cameras.len())
         .filter_map(|camera| value(&ranked, camera, metric).and_then(|v| Some((camera, v, v.value.ok()?))))
         .collect();
     let largest_first = metric.better == Better::Higher;
-    rows.sort_by(|a, b| if largest_first { b.2.total_cmp(&a.2) } else { a.2.abs().total_cmp(&b.2.abs()) });
-    let unit = if unit(&metric).is_empty() { String::new() } else { format!(" in {}", unit(&metric)) };
-    let name = |camera: usize| ranked.cameras[camera].id.name.as_str();
-    let names = rows.iter().map(|row| text_width(name(row.0), TextSize::Small)).fold(40.0, f64::max) + 20.0;
-    let width = room.width.unwrap_or(WIDTH).max(names + 180.0);
-    let mut figure = Figure::new(format!("{}{unit}", metric.label), [width, 24.0 + ROW * rows.len() as f64]);
-    let mut panel = Panel::board("Metrics", Rect::from_min_size([0.0; 2], figure.size), Ink::new(InkRole::Plot));
-    let text =
-        |words: &str, at: [f64; 2], anchor: Anchor, size: TextSize| Mark::text(words, at, anchor, size, InkRole::Text);
-    panel.marks.push(text(&figure.title, [8.0, 12.0], Anchor::LEFT, TextSize::Body));
-    let largest = rows
-        .iter()
-        .map(|row| row.2.abs() + row.1.uncertainty.map_or(0.0, |by| by.standard))
-        .fold(f64::MIN_POSITIVE, f64::max);
-    let written = |value: MetricValue| {
-        [number(metric, value), uncertainty(value).unwrap_or_default()].map(|words| {
-            let width = text_width(&words, TextSize::Small);
-            (words, width)
-        })
+    order.sort_by(|a, b| if largest_first { b.2.total_cmp(&a.2) } else { a.2.abs().total_cmp(&b.2.abs()) });
+    let (sources, ranks) = (scene.visible_sources(), ranks(&ranked, metric));
+    let source = |camera: usize| {
+        let id = &ranked.cameras[camera].id;
+        sources.iter().find(|source| source.kind == id.kind && source.name == id.name)
     };
-    let [numbers_width, behind_width] =
-        rows.iter().map(|row| written(row.1)).fold([0.0_f64; 2], |[a, b], [x, y]| [a.max(x.1), b.max(y.1)]);
-    let margin = 72.0_f64.max(numbers_width + behind_width + 24.0);
-    let x = |value: f64| names + (width - names - margin) * (value.abs() / largest).clamp(0.0, 1.0);
-    for (index, (camera, value, merit)) in rows.iter().enumerate() {
-        let y = 24.0 + ROW * index as f64 + ROW / 2.0;
-        let name = name(*camera);
-        panel.marks.push(text(name, [names - 8.0, y], Anchor::RIGHT, TextSize::Small));
-        let bar = Shape::Rect { min: [names, y - 5.0], max: [x(*merit), y + 5.0] };
-        panel.marks.push(Mark::new(Tag::default(), name, bar).with_fill(InkRole::Line));
-        if let Some(by) = value.uncertainty.map(|by| by.standard) {
-            let segments = vec![[[x((merit.abs() - by).max(0.0)), y], [x(merit.abs() + by), y]]];
-            panel.marks.push(
-                Mark::new(Tag::default(), "uncertainty", Shape::Segments { segments }).with_stroke(InkRole::Text, 1.2),
-            );
+    let width = room.width.unwrap_or(WIDTH);
+    let most = room.height.map_or(MOST, |height| (height / whiskers::ROW) as usize - 4);
+    let places = shown(order.len(), most.max(2), |place| source(order[place].0).is_some());
+    let mut rows = Vec::new();
+    let mut next = 0;
+    for &place in &places {
+        let words = |name: String| Row {
+            name,
+            behind: String::new(),
+            ink: InkRole::Weak.into(),
+            marker: Marker::Dot,
+            is_filled: true,
+            value: None,
+        };
+        if place > next {
+            rows.push(words(format!("{} more", place - next)));
         }
-        let [(number, _), (behind, _)] = written(*value);
-        let end = width - 12.0 - behind_width;
-        panel.marks.push(text(&number, [end, y], Anchor::RIGHT, TextSize::Small));
-        panel.marks.push(Mark::text(behind, [end + 4.0, y], Anchor::LEFT, TextSize::Small, InkRole::Weak));
+        next = place + 1;
+        let (camera, value, merit) = order[place];
+        let rank = rank_in_words(ranks[camera]);
+        let behind = [number(metric, value), uncertainty(value).unwrap_or_default(), rank.clone()].join(" ");
+        let by = value.uncertainty.map_or(0.0, |by| by.standard);
+        let dagger = if value.uncertainty.is_some_and(|by| by.is_extrapolated) { "†" } else { "" };
+        let row = Row {
+            behind: if width < NARROW { rank + dagger } else { behind },
+            ink: InkRole::Text.into(),
+            value: Some([merit, by]),
+            ..words(ranked.cameras[camera].id.name.clone())
+        };
+        rows.push(match source(camera) {
+            Some(source) => Row { ink: source.role.into(), marker: source.marker, ..row },
+            None => row,
+        });
     }
-    figure.panels.push(panel);
+    let [in_unit, unit] = match unit(&metric) {
+        "" => [String::new(), String::new()],
+        unit => [format!(" in {unit}"), format!(" ({unit})")],
+    };
+    let mut figure = Figure::new(format!("{}{in_unit}", metric.label), [width, 0.0]);
+    figure.panels = whiskers::panels(&rows, &format!("{}{unit}", metric.symbol), width, false).into();
+    figure.size = figure.panels[0].area.max;
+    let among = if order.len() > most { format!("{} of {} cameras. ", most, order.len()) } else { String::new() };
+    let behind = if width < NARROW { "ranks" } else { "values and ranks" };
     figure.caption = format!(
-        "Lines: ± u. {} {}",
-        scene.metrics_words_with(rows.iter().filter_map(|row| row.1.uncertainty).collect::<Vec<_>>()),
+        "{among}Whiskers: ± u. At the right: {behind}, a range where cameras do not differ at 95 %. {} {}",
+        scene.metrics_words_with(
+            &[metric],
+            places.iter().filter_map(|place| order[*place].1.uncertainty).collect::<Vec<_>>()
+        ),
         conditions(scene)
     );
-    let numbers = with_nature(table(&ranked), |camera| uncertainties(&ranked, [camera]));
-    figure.table = numbers.with_constants(scene.metrics_constants(scene.document.temperature_k));
+    figure.table = numbers(scene, &ranked);
     Some(figure)
 }

@@ -28,7 +28,7 @@ pub fn query(catalog: &Catalog, results: &Results) -> Option<PicturesQuery> {
     document.compared.retain(|c| c.kind == SetKind::Observer || c.name == CAMERA);
     let scene = Scene { document: &document, catalog, results };
     let sources = scene.rendered_sources();
-    let viewpoint = Orbit::of(&document.render.mesh).viewpoint(f64::from(SIZE[0]) / f64::from(SIZE[1]))?;
+    let viewpoint = Orbit::of(&document.render).viewpoint(f64::from(SIZE[0]) / f64::from(SIZE[1]))?;
     let size = RasterSize { width: SIZE[0], height: SIZE[1], samples: 2 }.clamped();
     let (quality, shadows) = (document.render.quality(), Shadows::Full);
     let finish = Finish { size, quality, shadows, compared_samples: None, open_sky: false };

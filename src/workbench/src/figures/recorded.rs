@@ -41,7 +41,8 @@ fn figure(_: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> 
     figure.legend = legend();
     figure.legend_place = LegendPlace::Outside;
     figure.caption = format!(
-        "Recorded over modeled raw values of {name}, 100 ln; RMS {} %, {} values, {} fitted parameters; {}.",
+        "Recorded over modeled raw values of {name}, 100 ln; RMS {} %, {} values, {} fitted parameters; {}. Named: the patches \
+         with the largest residuals.",
         fixed(fit.rms() * 100.0, 2),
         fit.values,
         fit.parameters,

@@ -15,6 +15,7 @@ use super::chromaticity::viewing_conditions;
 use super::kind::{FigureKind, Need};
 use super::look::{FigureLook, PixelPlace, RenderMode};
 use crate::format::fixed;
+use crate::names::fitted;
 use crate::plot_item::{PickIndex, SensorId};
 use crate::render_service::RenderedFrame;
 use crate::render_service::made::MadePictures;
@@ -27,6 +28,8 @@ use chromascope_core::query::render::Roughness;
 const WIDTH: f64 = 340.0;
 /// Height of a line above a picture.
 const LINE: f64 = 20.0;
+/// Height of each line below it.
+const SMALL_LINE: f64 = 15.0;
 const GAP: f64 = 8.0;
 /// A pixel of an image with a sample that is no number.
 pub const NO_VALUE: &str = "no value in some band";
@@ -54,7 +57,8 @@ fn shown(shot: &RenderedFrame, mode: RenderMode) -> std::ops::Range<usize> {
 
 pub static KIND: FigureKind =
     FigureKind::new("render", "Pictures of a mesh or spectral image through each sensor", figure)
-        .needing(Need::Pictures(RenderMode::Grid));
+        .needing(Need::Pictures(RenderMode::Grid))
+        .in_report();
 
 /// The same with differences in place of the pictures, as the pane has them in that arrangement.
 pub static DIFFERENCE: FigureKind =
@@ -75,7 +79,7 @@ fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figu
     let width = picture_width(room, shown.len());
     let size = [width, width * shape[1] as f64 / shape[0].max(1) as f64];
     let cells: Vec<PictureCell<'_>> = shown.map(|at| PictureCell::new(shot, at, maps.is_some(), width)).collect();
-    let above = LINE * cells.iter().map(|cell| cell.lines.len()).max().unwrap_or(0) as f64;
+    let above = cells.iter().map(PictureCell::height).fold(0.0, f64::max);
     let rows = cells.len().div_ceil(columns);
     let scale = if maps.is_some() { difference::SCALE_HEIGHT } else { 0.0 };
     let all = [columns as f64 * (size[0] + GAP) + GAP, rows as f64 * (size[1] + above + GAP) + GAP + scale];
@@ -93,19 +97,25 @@ fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figu
     }
     figure.panels.push(panel);
     figure.caption = match maps {
-        Some(_) if made.image().is_some() => {
-            format!("Maps of {} from the reference. {}", measure.name(), caption(scene, shot))
-        }
         Some(_) => {
-            format!("Maps of {} from the reference; hatched: no light. {}", measure.name(), caption(scene, shot))
+            let hatched = if shown_unlit(&made) { "; hatched: no light" } else { "" };
+            format!("Maps of {} from the reference{hatched}. {}", measure.name(), caption(scene, shot))
         }
-        None => caption(scene, shot),
+        None => format!("{}{}", caption(scene, shot), shot.query.exaggeration().sentence()),
     };
-    if cells.len() > 1 || !shot.sources.iter().all(|source| source.is_reference) {
-        figure.caption = format!("{} {}", figure.caption, measure.meaning());
+    if !shot.sources.iter().all(|source| source.is_reference) {
+        let meaning = if cells.iter().any(|cell| cell.is_short) { measure.short_meaning() } else { measure.meaning() };
+        figure.caption = format!("{} {meaning}", figure.caption);
     }
     figure.table = table(shot, measure.name());
     Some(figure)
+}
+
+/// True if a sample that is seen gets no light.
+fn shown_unlit(made: &MadePictures<'_>) -> bool {
+    (0..made.pictures.len())
+        .filter_map(|at| made.signals(at))
+        .any(|(geometry, _)| geometry.seen().len() > geometry.samples().len())
 }
 
 /// One picture with the words above it.
@@ -119,6 +129,8 @@ struct PictureCell<'a> {
     named: usize,
     /// Words at the right end of the first line.
     note: String,
+    /// True if the words are of one number only.
+    is_short: bool,
 }
 
 impl<'a> PictureCell<'a> {
@@ -128,20 +140,32 @@ impl<'a> PictureCell<'a> {
     fn new(shot: &'a RenderedFrame, at: usize, is_map: bool, width: f64) -> Self {
         let source = &shot.sources[at];
         let label = if source.is_reference { format!("Reference, {}", source.label) } else { source.label.clone() };
+        // Maps are of the differences as they are.
+        let exaggerated = shot.query.exaggeration().note().filter(|_| !is_map && !source.is_reference);
+        let label = exaggerated.map_or(label.clone(), |note| format!("{label}, {note}"));
         let difference = shot.made().and_then(|made| made.differences.get(at)?.as_ref());
-        let detail = if is_map { Detail::Metric } else { Detail::Quantiles };
-        let note = difference.map(|difference| Measure::of_frame(shot).words(difference, detail)).unwrap_or_default();
+        let words = |detail| difference.map(|difference| Measure::of_frame(shot).words(difference, detail));
+        let all = words(Detail::Quantiles).unwrap_or_default();
+        // What takes more than a line is left to the numbers.
+        let is_short = is_map || text_width(&all, TextSize::Small) > width;
+        let note = if is_short { words(Detail::Metric).unwrap_or_default() } else { all };
         let both = text_width(&label, TextSize::Body) + text_width(&note, TextSize::Body) + Self::KEY + 2.0 * GAP;
         let lines = |text: &str, size, room| wrapped(text, size, room).into_iter().map(move |line| (line, size));
         if both <= width {
-            return Self { at, source, lines: vec![(label.clone(), TextSize::Body)], named: 1, label, note };
+            return Self { at, source, lines: vec![(label.clone(), TextSize::Body)], named: 1, label, note, is_short };
         }
-        let fits = text_width(&label, TextSize::Body) + Self::KEY <= width;
-        let name = lines(&label, if fits { TextSize::Body } else { TextSize::Small }, width - Self::KEY);
-        let name: Vec<_> = name.collect();
+        let labels: Vec<String> = shot.sources.iter().map(|source| source.label.clone()).collect();
+        let fits = |form: &str| text_width(form, TextSize::Small) + Self::KEY <= width;
+        let short = if source.is_reference { "Reference".to_owned() } else { fitted(&label, &labels, fits) };
+        let name: Vec<_> = lines(&short, TextSize::Small, width - Self::KEY).collect();
         let named = name.len();
         let lines = name.into_iter().chain(lines(&note, TextSize::Small, width)).collect();
-        Self { at, source, label, lines, named, note: String::new() }
+        Self { at, source, label, lines, named, note: String::new(), is_short }
+    }
+
+    /// Height of the words: those of a name of one line have air around them.
+    fn height(&self) -> f64 {
+        LINE + SMALL_LINE * (self.lines.len() as f64 - 1.0)
     }
 
     fn heading(&self, [x, y]: [f64; 2], width: f64, ink: Ink) -> Vec<Mark> {
@@ -151,7 +175,7 @@ impl<'a> PictureCell<'a> {
         let mut marks = vec![if self.source.marker.has_inside() { mark.with_fill(ink) } else { mark }];
         for (row, (words, size)) in self.lines.iter().enumerate() {
             let inset = if row < self.named { Self::KEY } else { 0.0 };
-            let at = [x + inset, middle + LINE * row as f64];
+            let at = [x + inset, middle + SMALL_LINE * row as f64];
             marks.push(Mark::text(words.as_str(), at, Anchor::LEFT, *size, ink));
         }
         if !self.note.is_empty() {
@@ -262,6 +286,7 @@ pub fn pixel_of(scene: &Scene<'_>, shot: &RenderedFrame, place: &PixelPlace) -> 
 pub fn pixel_line(scene: &Scene<'_>, shot: &RenderedFrame, place: &PixelPlace) -> Option<String> {
     let reading = pixel_of(scene, shot, place)?;
     let label = &shot.sources.get(index_of(shot, &place.source)?)?.label;
+    let label = patch_at(scene, shot, place).map_or_else(|| label.clone(), |patch| format!("{patch}, {label}"));
     let [x, y] = reading.at;
     let rest = match &reading.shows {
         PixelShows::Nothing => {
@@ -277,6 +302,12 @@ pub fn pixel_line(scene: &Scene<'_>, shot: &RenderedFrame, place: &PixelPlace) -
             .join("  "),
     };
     Some(format!("{label}, pixel {x}, {y}: {rest}"))
+}
+
+/// The patch of the chart in the picture that a pixel shows.
+pub fn patch_at(scene: &Scene<'_>, shot: &RenderedFrame, place: &PixelPlace) -> Option<String> {
+    let PixelShows::Lit(lit) = pixel_of(scene, shot, place)?.shows else { return None };
+    scene.patch_name(lit.part)
 }
 
 /// A lit pixel's numbers with their names; `measure` is that of its difference.

@@ -28,13 +28,16 @@ const TWO_COLUMNS: f64 = 480.0;
 /// From this width on the bars stand beside the plots, so that the page is low.
 const ONE_ROW: f64 = 840.0;
 /// Width of a column of figures of merit where there are more than two.
-const LIST_COLUMN: f64 = 216.0;
+const LIST_COLUMN: f64 = 170.0;
 const TITLE: f64 = 44.0;
 const NAME_LINE: f64 = 20.0;
 const PLOTS: f64 = 190.0;
 const BARS: f64 = 200.0;
+/// Heights of plots and bars in one column.
+const LOW_PLOTS: f64 = 120.0;
+const LOW_BARS: f64 = 150.0;
 const LINE: f64 = 15.0;
-const FOOT_LINE: f64 = 12.0;
+const FOOT_LINE: f64 = 14.0;
 
 /// The camera of the card: the chosen one, else the selected one, else the first that is compared.
 pub fn camera(scene: &Scene<'_>, look: &FigureLook) -> Option<SensorId> {
@@ -53,7 +56,7 @@ pub static KIND: FigureKind = FigureKind::new("report-card", "All figures of mer
 fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
     let id = camera(scene, look)?;
     let figures = scene.camera_figures(id.kind, &id.name).ok()?;
-    let width = room.width.unwrap_or(WIDTH).max(LIST_COLUMN);
+    let width = room.width.unwrap_or(WIDTH).max(2.0 * LIST_COLUMN);
     Some(page(scene, &id, &figures, width))
 }
 
@@ -65,12 +68,19 @@ pub fn page(scene: &Scene<'_>, id: &SensorId, figures: &CameraFigures, width: f6
         Rect::from_min_size([0.0, top - height], [width, height])
     };
     let name = chromascope_figure::wrapped(&id.name, TextSize::Heading, width - 16.0);
-    let mut panels = vec![title(scene, id, &name, place(TITLE + NAME_LINE * (name.len() as f64 - 1.0)))];
+    let entry = scene.entry(id.kind, &id.name).ok();
+    let source = entry.and_then(|entry| entry.header).map_or_else(|| "yours".to_owned(), |header| header.source);
+    // The institution; the way to its file stands in the library.
+    let source = source.split(';').next().unwrap_or_default();
+    let source = chromascope_figure::wrapped(source, TextSize::Small, width - 24.0);
+    let height = TITLE + NAME_LINE * (name.len() as f64 - 1.0) + LINE * (source.len() as f64 - 1.0);
+    let mut panels = vec![title(&source, &name, place(height))];
     let beside = |row: Rect, [from, to]: [f64; 2]| {
         Rect::from_min_size([from * width, row.min[1]], [(to - from) * width, row.height()])
     };
     let areas = if width < TWO_COLUMNS {
-        [place(PLOTS), place(PLOTS), place(BARS)]
+        let row = place(LOW_PLOTS);
+        [beside(row, [0.0, 0.5]), beside(row, [0.5, 1.0]), place(LOW_BARS)]
     } else if width < ONE_ROW {
         let row = place(PLOTS);
         [beside(row, [0.0, 0.5]), beside(row, [0.5, 1.0]), place(BARS)]
@@ -81,12 +91,13 @@ pub fn page(scene: &Scene<'_>, id: &SensorId, figures: &CameraFigures, width: f6
     panels.push(sensitivities(scene, id, areas[0]));
     panels.push(locus(scene, id, areas[1]));
     panels.push(patches(scene, &figures.metrics, areas[2]));
-    let columns = list(if width < TWO_COLUMNS { 1 } else { ((width / LIST_COLUMN) as usize).max(2) });
+    let columns = list(((width / LIST_COLUMN) as usize).max(2));
     let rows = columns.iter().map(Vec::len).max().unwrap_or(0);
     let temperature_k = scene.document.temperature_k;
     panels.push(values(figures, place(LINE * (rows as f64 + 0.4)), &columns, temperature_k));
     let known: Vec<_> = figures.uncertainties.iter().flat_map(|all| all.iter().copied().flatten()).collect();
-    let words = chromascope_figure::wrapped(&in_words(known), TextSize::Small, width - 16.0);
+    let words = in_words(known).replacen("±:", "In brackets, of the last digits:", 1);
+    let words = chromascope_figure::wrapped(&words, TextSize::Small, width - 16.0);
     let mut foot = Panel::board("uncertainty", place(FOOT_LINE * words.len() as f64), Ink::new(InkRole::Plot));
     for (row, words) in words.into_iter().enumerate() {
         let at = [8.0, FOOT_LINE * (row as f64 + 0.5)];
@@ -95,7 +106,7 @@ pub fn page(scene: &Scene<'_>, id: &SensorId, figures: &CameraFigures, width: f6
     panels.push(foot);
     let mut figure = Figure::new(format!("Report card: {}", id.name), [width, top]);
     figure.panels = panels;
-    let words = scene.metrics_words();
+    let words = scene.metrics_words(CameraMetric::ALL);
     figure.caption = format!("{words} {}", conditions(scene));
     figure.table = numbers(id, figures).with_constants(scene.metrics_constants(temperature_k));
     figure
@@ -105,18 +116,16 @@ fn line(name: &str, points: Vec<[f64; 2]>, ink: Ink, width: f64) -> Mark {
     Mark::new(Tag::default(), name, Shape::Line { points, closed: false }).with_stroke(ink, width)
 }
 
-fn title(scene: &Scene<'_>, id: &SensorId, name: &[String], area: Rect) -> Panel {
+fn title(source: &[String], name: &[String], area: Rect) -> Panel {
     let mut panel = Panel::board("title", area, Ink::new(InkRole::Plot));
-    let entry = scene.entry(id.kind, &id.name).ok();
-    let source = entry.and_then(|entry| entry.header).map_or_else(|| "yours".to_owned(), |header| header.source);
     for (row, words) in name.iter().enumerate() {
         let at = [8.0, 13.0 + NAME_LINE * row as f64];
         panel.marks.push(Mark::text(words, at, Anchor::LEFT, TextSize::Heading, InkRole::Text));
     }
-    let source = chromascope_figure::wrapped(&source, TextSize::Small, area.width() - 24.0);
-    let cut = if source.len() > 1 { "…" } else { "" };
-    let source = format!("{}{cut}", source.first().map_or("", String::as_str));
-    panel.marks.push(Mark::text(source, [8.0, area.height() - 11.0], Anchor::LEFT, TextSize::Small, InkRole::Weak));
+    for (row, words) in source.iter().rev().enumerate() {
+        let at = [8.0, area.height() - 11.0 - LINE * row as f64];
+        panel.marks.push(Mark::text(words, at, Anchor::LEFT, TextSize::Small, InkRole::Weak));
+    }
     panel
 }
 
@@ -183,7 +192,10 @@ fn patches(scene: &Scene<'_>, metrics: &CameraMetrics, area: Rect) -> Panel {
         panel.marks.push(Mark::new(Tag::default(), name(patch), shape).with_fill(ink).with_stroke(InkRole::Weak, 0.5));
     }
     let worst = metrics.worst.get(at).map_or(&[][..], Vec::as_slice);
-    let labels = worst.iter().enumerate().filter_map(|(rank, &patch)| {
+    // In the low bars of one column leaders of more would cross.
+    let is_low = area.height() < BARS - 1.0;
+    let named_worst = if is_low { 3 } else { worst.len() };
+    let labels = worst.iter().take(named_worst).enumerate().filter_map(|(rank, &patch)| {
         let value = values.get(patch).copied().flatten()?;
         let number = fixed(value, scene.document.difference.decimals.saturating_sub(1));
         let words = format!("{}  {} {number}", rank + 1, name(patch));
@@ -239,6 +251,14 @@ fn list(columns: usize) -> Vec<Vec<Line>> {
     made
 }
 
+/// A standard uncertainty in the last digits of its number, in brackets (JCGM 100, 7.2.2): `± 0.12†` as `(12)†`.
+fn concise(behind: &str) -> String {
+    let dagger = if behind.ends_with('†') { "†" } else { "" };
+    let digits = behind.trim_start_matches("± ").trim_end_matches('†');
+    let digits = digits.strip_prefix("0.").map_or(digits, |after| after.trim_start_matches('0'));
+    format!("({digits}){dagger}")
+}
+
 fn values(figures: &CameraFigures, area: Rect, columns: &[Vec<Line>], temperature_k: f64) -> Panel {
     let mut panel = Panel::board("figures of merit", area, Ink::new(InkRole::Plot));
     let places = columns.iter().enumerate().flat_map(|(column, lines)| {
@@ -257,18 +277,12 @@ fn values(figures: &CameraFigures, area: Rect, columns: &[Vec<Line>], temperatur
         };
         let metric = &CameraMetric::ALL[at];
         let Some(value) = figures.of(*metric) else { continue };
-        panel.marks.push(Mark::text(metric.symbol, [left + 8.0, y], Anchor::LEFT, TextSize::Small, InkRole::Text));
-        let number = format!("{} {}", number(*metric, value), unit(metric));
-        panel.marks.push(Mark::text(
-            number.trim_end(),
-            [left + 142.0, y],
-            Anchor::RIGHT,
-            TextSize::Small,
-            InkRole::Text,
-        ));
-        if let Some(by) = uncertainty(value) {
-            panel.marks.push(Mark::text(by, [left + 147.0, y], Anchor::LEFT, TextSize::Small, InkRole::Weak));
-        }
+        panel.marks.push(Mark::text(metric.symbol, [left + 2.0, y], Anchor::LEFT, TextSize::Small, InkRole::Text));
+        let unit = if value.value.is_ok() { unit(metric) } else { "" };
+        let behind = uncertainty(value).as_deref().map_or_else(String::new, concise);
+        let number = format!("{}{behind} {unit}", number(*metric, value));
+        let end = left + (area.width() / columns.len() as f64).min(LIST_COLUMN) - 8.0;
+        panel.marks.push(Mark::text(number.trim_end(), [end, y], Anchor::RIGHT, TextSize::Small, InkRole::Text));
     }
     panel
 }

@@ -8,12 +8,12 @@ use chromascope_core::colorimetry::diagram::wavelength_color;
 use chromascope_core::spectral::SpectralDistribution;
 use chromascope_core::spectral::grid::{COUNT, FIRST_NM, LAST_NM, wavelength_nm};
 use chromascope_figure::{
-    Axis, Cell, Column, Figure, FigureRoom, Image, InkRole, Labels, LegendPlace, Mark, Panel, Projection, Rect, Shape,
-    Table, Ticks,
+    Axis, Cell, Column, Dash, Figure, FigureRoom, Image, InkRole, Labels, LegendPlace, Mark, Panel, Projection, Rect,
+    Shape, Table, Ticks,
 };
 
 use self::content::Content;
-use super::chromaticity::{caption, key};
+use super::chromaticity::patches_words;
 use super::data_set::Name;
 use super::kind::FigureKind;
 use super::look::{FigureLook, SpectraLayout};
@@ -56,6 +56,8 @@ impl Built {
 
 /// The height of the band of colors with its labels.
 const FOOT: f64 = 4.0 + Projection::BOTTOM + Projection::TITLE;
+/// Width below which notes are shortest.
+const NARROW: f64 = 300.0;
 
 pub fn build(scene: &Scene<'_>, look: &FigureLook, size: [f64; 2]) -> Built {
     let mut built = Built::default();
@@ -74,7 +76,9 @@ pub fn build(scene: &Scene<'_>, look: &FigureLook, size: [f64; 2]) -> Built {
         }
     } else if !sources.is_empty() {
         let all = content::sensitivities(scene, &sources, None, &mut built);
-        contents.push(built.noted(Content { note: "scaled to peak 1".to_owned(), weight: 1.7, ..all }));
+        // Beside the axis title in a narrow pane too: a second line would take the room of the letters.
+        let note = if size[0] < NARROW { "peaks at 1" } else { "scaled to peak 1" };
+        contents.push(built.noted(Content { note: note.to_owned(), weight: 1.7, ..all }));
     }
     let weights: f64 = contents.iter().map(|content| content.weight).sum();
     let large = size[0] > 500.0;
@@ -91,8 +95,8 @@ pub fn build(scene: &Scene<'_>, look: &FigureLook, size: [f64; 2]) -> Built {
 /// A panel of curves with their names.
 fn panel(content: Content, area: Rect, large: bool) -> Panel {
     let x = Axis::new("", [FIRST_NM, LAST_NM]).with_grid(true).with_ticks(Ticks::None);
-    let ticks = if large { Ticks::Auto } else { Ticks::None };
-    let axis = Axis::new(content.quantity, content.range).with_ticks(ticks).with_grid(large);
+    let ticks = [-0.5, 0.0, 0.5, 1.0].map(|value| (value, format!("{value:.1}").replace('-', "−"))).into();
+    let axis = Axis::new(content.quantity, content.range).with_ticks(Ticks::At(ticks)).with_grid(large);
     let name = format!("{}, {}", content.quantity, content.note);
     let panel = Panel { note: content.note, marks: content.marks, ..Panel::new(name, area, x, axis) };
     // Names stand above curves, below the title and the note.
@@ -129,7 +133,7 @@ fn foot(scene: &Scene<'_>, area: Rect, large: bool) -> Panel {
     let labels = shown.map(|nm| (*nm, format!("{nm:.0}"))).collect();
     let x = Axis::new("wavelength (nm)", [FIRST_NM, LAST_NM]).with_ticks(Ticks::At(labels));
     // An axis without labels, but as wide as those above.
-    let y = Axis::new("", [0.0, 1.0]).with_ticks(if large { Ticks::At(Vec::new()) } else { Ticks::None });
+    let y = Axis::new("", [0.0, 1.0]).with_ticks(Ticks::At(Vec::new()));
     let mut panel = Panel::new("wavelength", area, x, y);
     panel.framed = false;
     if let Ok(observer) = scene.sensor(SetKind::Observer, FIT_TARGET) {
@@ -144,7 +148,8 @@ fn foot(scene: &Scene<'_>, area: Rect, large: bool) -> Panel {
 
 const SIZE: [f64; 2] = [640.0, 560.0];
 
-pub static KIND: FigureKind = FigureKind::new("spectra", "Light, patches and sensitivities over wavelength", figure);
+pub static KIND: FigureKind =
+    FigureKind::new("spectra", "Light, patches and sensitivities over wavelength", figure).in_report();
 
 /// The figure as it is saved, with all values on the 1 nm grid.
 #[allow(clippy::unnecessary_wraps, reason = "other kinds of figures can have nothing to draw")]
@@ -153,10 +158,14 @@ fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figu
     let built = build(scene, look, size);
     let mut figure = Figure::new("Spectra", size);
     figure.panels = built.panels;
-    figure.legend = scene.visible_sources().iter().map(|source| key(source, source.label.clone())).collect();
+    figure.legend = scene.visible_sources().iter().map(content::key).collect();
     figure.legend_place = LegendPlace::Outside;
     let bands: String = built.bands.iter().flat_map(|words| [capitalized(words), ". ".to_owned()]).collect();
-    figure.caption = format!("Dotted: beyond the data, the end value is held. {bands}{}", caption(scene));
+    let mut strokes = figure.panels.iter().flat_map(|panel| &panel.marks).filter_map(|mark| mark.stroke);
+    let is_held = strokes.any(|stroke| stroke.dash == Dash::Dotted);
+    let held = if is_held { "Dotted: beyond the data, the end value is held. " } else { "" };
+    let light = scene.light_name();
+    figure.caption = format!("{held}{bands}Light: {light}. {}", patches_words(scene));
     figure.table = table(scene);
     Some(figure)
 }

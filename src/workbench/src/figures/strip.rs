@@ -2,9 +2,10 @@
 
 use chromascope_core::colorimetry::Xy;
 use chromascope_core::query::Locus;
+use chromascope_core::query::displacement::JUST_VISIBLE_UV_PRIME as JUST_VISIBLE;
 use chromascope_figure::{
     Anchor, Axis, Cell, Dash, Figure, FigureRoom, InkRole, Label, Labels, Mark, Marker, Panel, Place, Projection, Rect,
-    Shape, Table, Ticks,
+    Shape, Table, TextSize, Ticks, text_width,
 };
 
 use super::chromaticity::{self, distance_symbol, id};
@@ -28,8 +29,6 @@ pub struct Strip {
 const TICKS: [f64; 7] = [1000.0, 1200.0, 1500.0, 2000.0, 3000.0, 5000.0, 20_000.0];
 /// Largest distance drawn: a locus that goes to infinity leaves the strip, the others stay readable.
 const LARGEST: f64 = 0.6;
-/// Δu′v′ of lights that half of observers just tell apart.
-const JUST_VISIBLE: f64 = 0.0013;
 
 /// Marks of the strip, from back to front.
 #[derive(Default)]
@@ -47,15 +46,17 @@ pub fn build(scene: &Scene<'_>, size: [f64; 2]) -> Option<Strip> {
     let diagram = scene.document.diagram;
     let mut things = PickIndex::default();
     let content = content(scene, &reference, &mut things)?;
-    let note = format!(
-        "distance to reference ({}, square-root scale), normalized to {} (ring: minimum)",
-        distance_symbol(diagram),
+    let symbol = distance_symbol(diagram);
+    let long = format!(
+        "distance to reference ({symbol}, square-root scale), normalized to {} (ring: minimum)",
         scene.locus_balance()
     );
+    // In a narrow strip the caption tells the rest: the note takes a line, not the curves' height.
+    let fits = text_width(&long, TextSize::Small) < size[0] - Projection::LEFT - 12.0;
+    let note = if fits { long } else { format!("{symbol} to reference (square-root scale)") };
     let highest = content.top.clamp(1e-6, LARGEST).sqrt();
-    let ticks = TICKS.iter().map(|kelvin| (1e6 / kelvin, format!("{kelvin:.0}"))).collect();
-    let [cold, hot] = LOCUS_RANGE_K.map(|kelvin| 1e6 / kelvin);
-    let x = Axis::new("blackbody temperature (K)", [cold, hot]).with_ticks(Ticks::At(ticks)).with_grid(true);
+    let x = temperature_axis();
+    let [cold, hot] = x.range;
     let y = Axis::new("", [0.0, highest]).with_ticks(Ticks::At(height_ticks(highest * highest))).with_grid(true);
     let mut panel =
         Panel::new("Distance to the reference over temperature", Rect::from_min_size([0.0, 0.0], size), x, y);
@@ -88,6 +89,13 @@ pub fn build(scene: &Scene<'_>, size: [f64; 2]) -> Option<Strip> {
     Some(Strip { panel, things })
 }
 
+/// The temperatures of loci, evenly in mired, cold at the left.
+pub(super) fn temperature_axis() -> Axis {
+    let ticks = TICKS.iter().map(|kelvin| (1e6 / kelvin, format!("{kelvin:.0}"))).collect();
+    let range = LOCUS_RANGE_K.map(|kelvin| 1e6 / kelvin);
+    Axis::new("blackbody temperature (K)", range).with_ticks(Ticks::At(ticks)).with_grid(true)
+}
+
 const SIZE: [f64; 2] = [640.0, 170.0];
 
 pub static KIND: FigureKind =
@@ -101,7 +109,25 @@ fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figu
     figure.panels.push(build(scene, size)?.panel);
     let is_locus = |row: &Vec<Cell>| row.get(1) == Some(&Cell::from("locus"));
     figure.table = Table { rows: whole.table.rows.into_iter().filter(is_locus).collect(), ..whole.table };
-    Some(Figure { legend: whole.legend, legend_place: whole.legend_place, caption: whole.caption, ..figure })
+    figure.caption = caption(scene);
+    Some(Figure { legend: whole.legend, legend_place: whole.legend_place, ..figure })
+}
+
+/// What the strip depends on, and its minima, in sentences.
+fn caption(scene: &Scene<'_>) -> String {
+    let minima = minima(scene);
+    let words = minima.iter().map(|(source, at)| format!("{} {:.0} K", source.label, 1e6 / at[0]));
+    let words = words.collect::<Vec<_>>().join(", ");
+    let minima = if minima.is_empty() { String::new() } else { format!(" Rings: minima ({words}).") };
+    let (before, loci) = (chromaticity::viewing_conditions(scene), chromaticity::loci_words(scene));
+    format!("{before} {} {loci}{minima}", chromaticity::transform_words(scene))
+}
+
+/// Sensors that can be compared with the reference, with their minima.
+fn minima(scene: &Scene<'_>) -> Vec<(ComparedSensor, [f64; 2])> {
+    let sources = scene.visible_sources().into_iter();
+    let compared = sources.filter(|source| !source.is_reference && scene.is_comparable(source.kind, &source.name));
+    compared.filter_map(|source| minimum(scene, &source).map(|at| (source, at))).collect()
 }
 
 /// Lines and signs of the sensors; none where there are none.
@@ -134,8 +160,8 @@ fn content(scene: &Scene<'_>, reference: &Locus, things: &mut PickIndex) -> Opti
         if !beyond.is_empty() {
             content.lines.push(line(beyond).with_dash(Dash::Dotted));
         }
-        content.minima.extend(minimum(scene, source).map(|at| (source.clone(), at)));
     }
+    content.minima = minima(scene);
     for (source, at) in &content.minima {
         let kelvin = 1e6 / at[0];
         let tag = things.tag(PlotItem::Radiator { source: id(source), kelvin: kelvin.round() });
@@ -155,11 +181,11 @@ fn minimum(scene: &Scene<'_>, source: &ComparedSensor) -> Option<[f64; 2]> {
 /// The temperature of a minimum, in the sensor's ink.
 fn minimum_text(source: &ComparedSensor, at: [f64; 2]) -> Label {
     let places = [7.0, 11.0].into_iter().flat_map(|far| Place::around(at, [1.0, -0.1], far)).collect();
-    Label { starts: vec![at], ..Label::new(format!("{:.0} K", 1e6 / at[0]), source.role, places) }
+    Label::new(format!("{:.0} K", 1e6 / at[0]), source.role, places)
 }
 
 /// Zero and two round distances with equal decimals, at the square roots where they lie.
-fn height_ticks(top: f64) -> Vec<(f64, String)> {
+pub(super) fn height_ticks(top: f64) -> Vec<(f64, String)> {
     let decade = 10_f64.powf(top.log10().floor());
     let rounds = [(5.0, 1.0), (2.0, 0.5), (1.0, 0.2)].map(|(high, low)| [0.0, low * decade, high * decade]);
     let rounds = rounds.into_iter().find(|rounds| rounds[2] <= top).unwrap_or([0.0, 0.2 * decade, decade]);
@@ -209,7 +235,7 @@ fn cut(marks: &[Mark], top: f64, height: f64) -> Vec<Mark> {
 }
 
 /// The line at the document's temperature.
-fn cursor(kelvin: f64, top: f64) -> Mark {
+pub(super) fn cursor(kelvin: f64, top: f64) -> Mark {
     let mired = 1e6 / kelvin;
     let line = Shape::Line { points: vec![[mired, 0.0], [mired, top]], closed: false };
     Mark::new(PickIndex::NONE, "temperature", line).with_stroke(InkRole::Text, 1.5)

@@ -7,7 +7,7 @@ use chromascope_core::query::PatchColor;
 use chromascope_figure::{Anchor, Field, Figure, FigureRoom, Ink, InkRole, Panel, Rect, Table};
 
 use self::board::Board;
-use super::chromaticity::{caption, id};
+use super::chromaticity::{conditions, id};
 use super::kind::FigureKind;
 use super::look::{FigureLook, SwatchLayout, SwatchStyle};
 use crate::document::{SetKind, TransformChoice};
@@ -25,8 +25,19 @@ pub struct Built {
 
 struct Row {
     source: ComparedSensor,
+    /// Colors as they are drawn, where these are others.
+    drawn: Vec<PatchColor>,
     /// Colors with their differences, or why there are none.
     colors: Result<Vec<(PatchColor, Option<f64>)>, String>,
+}
+
+impl Row {
+    /// The largest difference with its patch; of the reference none.
+    fn worst<'a>(&self, names: &'a [String]) -> Option<(f64, &'a String)> {
+        let named = self.colors.iter().flatten().zip(names);
+        let differences = named.filter_map(|((_, difference), name)| Some(((*difference)?, name)));
+        differences.max_by(|a, b| a.0.total_cmp(&b.0))
+    }
 }
 
 /// True if patches are arranged in rows.
@@ -57,9 +68,10 @@ pub fn build(scene: &Scene<'_>, look: &FigureLook, size: [f64; 2]) -> Built {
     Built { panel, things: board.things, height }
 }
 
-/// Length of a bar in words.
+/// Length of a bar in words, and the factor on the colors' differences where there is one.
 pub fn bar_scale(scene: &Scene<'_>) -> String {
-    format!("full bar: {} = {}", scene.difference_name(), number(scene.document.difference.full_scale))
+    let scale = format!("full bar: {} = {}", scene.difference_name(), number(scene.document.difference.full_scale));
+    scene.document.exaggeration.note().map_or(scale.clone(), |note| format!("{note}; {scale}"))
 }
 
 /// A difference with the decimals of a number beside a bar.
@@ -84,7 +96,8 @@ fn rows(scene: &Scene<'_>) -> Vec<Row> {
                     let of = |i: usize| differences.get(i).and_then(|d| d.ok()).filter(|_| !source.is_reference);
                     colors.into_iter().enumerate().map(|(i, color)| (color, of(i))).collect()
                 });
-            Row { source, colors }
+            let drawn = scene.drawn_patch_colors(source.kind, &source.name).unwrap_or_default();
+            Row { source, drawn, colors }
         })
         .collect()
 }
@@ -92,11 +105,8 @@ fn rows(scene: &Scene<'_>) -> Vec<Row> {
 /// The largest difference of all in words, with the patch through the sensor.
 pub fn worst(scene: &Scene<'_>) -> Option<(String, PlotItem)> {
     let (rows, names) = (rows(scene), patch_names(scene));
-    let differences = rows.iter().flat_map(|row| {
-        let named = row.colors.iter().flatten().zip(&names);
-        named.filter_map(move |((_, difference), name)| Some(((*difference)?, &row.source, name)))
-    });
-    let (difference, source, patch) = differences.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let worst = rows.iter().filter_map(|row| row.worst(&names).map(|(worst, name)| (worst, &row.source, name)));
+    let (difference, source, patch) = worst.max_by(|a, b| a.0.total_cmp(&b.0))?;
     let number = short(scene.document.difference, difference);
     let compared = rows.iter().filter(|row| row.colors.iter().flatten().any(|(_, difference)| difference.is_some()));
     let count = compared.clone().count();
@@ -106,13 +116,36 @@ pub fn worst(scene: &Scene<'_>) -> Option<(String, PlotItem)> {
     Some((words, PlotItem::Patch { source: Some(id(source)), patch: patch.clone() }))
 }
 
+/// The sensor that is off most and by how much, and how far the others are, in a sentence.
+pub fn headline(scene: &Scene<'_>) -> Option<String> {
+    let largest = |row: Row| {
+        let all = row.colors.ok()?;
+        Some((all.into_iter().filter_map(|(_, difference)| difference).reduce(f64::max)?, row.source.label))
+    };
+    let mut largest: Vec<(f64, String)> = rows(scene).into_iter().filter_map(largest).collect();
+    largest.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let ((most, name), others) = largest.split_first()?;
+    let number = |difference: f64| short(scene.document.difference, difference);
+    let others = match others {
+        [] => String::new(),
+        [(most, name)] => format!(", {name} by up to {}", number(*most)),
+        [(most, _), ..] => {
+            let count = ["two", "three", "four", "five", "six", "seven", "eight", "nine"].get(others.len() - 2);
+            let count = count.map_or_else(|| others.len().to_string(), |word| (*word).to_owned());
+            format!(", {count} others by up to {}", number(*most))
+        }
+    };
+    let (measure, light) = (scene.difference_name(), scene.light_name());
+    Some(format!("{name} is off by up to {measure} {} under {light}{others}", number(*most)))
+}
+
 const SIZE: [f64; 2] = [700.0, 300.0];
 /// Width below which a figure is higher than its proportions.
 const NARROW: f64 = 500.0;
 /// Height of the line below it that says how long bars are.
 const KEY: f64 = 18.0;
 
-pub static KIND: FigureKind = FigureKind::new("swatches", "Patches as each sensor renders them", figure);
+pub static KIND: FigureKind = FigureKind::new("swatches", "Patches as each sensor renders them", figure).in_report();
 
 /// The figure as it is saved (in rows with the five patches, the paper's Figure 5), with all numbers.
 #[allow(clippy::unnecessary_wraps, reason = "other kinds of figures can have nothing to draw")]
@@ -129,7 +162,7 @@ pub fn figure_sized(scene: &Scene<'_>, look: &FigureLook, size: [f64; 2]) -> Fig
     let mut figure = Figure::new("Swatches", [size[0], built.height.max(120.0) + KEY]);
     let area = Rect::from_min_size([0.0, 0.0], figure.size);
     let mut panel = Panel { marks: built.panel.marks, ..Panel::board("Swatches", area, built.panel.background) };
-    if !look.without_bars {
+    if !look.without_bars || scene.document.exaggeration.note().is_some() {
         let at = [size[0] - 6.0, figure.size[1] - 0.5 * KEY - 2.0];
         panel.marks.push(board::small(&bar_scale(scene), at, Anchor::RIGHT));
     }
@@ -140,8 +173,16 @@ pub fn figure_sized(scene: &Scene<'_>, look: &FigureLook, size: [f64; 2]) -> Fig
         SwatchStyle::Whole => "",
     };
     let worst = worst(scene).map_or_else(String::new, |(words, _)| format!("{words}. "));
-    let bars = scene.difference_name();
-    figure.caption = format!("{how} Bars: {bars}. Notched corners: clipped. {worst}{}", caption(scene));
+    let bars = if look.without_bars { String::new() } else { format!(" Bars: {}.", scene.difference_name()) };
+    let exaggerated = scene.document.exaggeration.sentence();
+    let is_clipped =
+        rows(scene).iter().flat_map(|row| row.colors.iter().flatten()).any(|(color, _)| color.srgb.clipped);
+    let clipped = match (is_clipped, exaggerated.is_empty()) {
+        (_, false) => " Notched or hatched: clipped.",
+        (true, true) => " Notched corners: clipped.",
+        (false, true) => "",
+    };
+    figure.caption = format!("{how}{bars}{exaggerated}{clipped} {worst}{}", conditions(scene));
     figure.table = table(scene);
     figure
 }

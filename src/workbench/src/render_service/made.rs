@@ -9,6 +9,7 @@ use chromascope_core::query::render::picture::{Pictures, PicturesQuery};
 use chromascope_core::query::{Query, RenderingQuery};
 use chromascope_core::render::{LitSamples, Picture};
 
+use crate::document::Exaggeration;
 use crate::scene::spectral_image::{ImagePictures, ImagePicturesError, ImagePicturesQuery};
 
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -29,6 +30,14 @@ impl PicturesOf {
     pub fn metric(&self) -> Metric {
         let (Self::Mesh(PicturesQuery { metric, .. }) | Self::Image(ImagePicturesQuery { metric, .. })) = self;
         *metric
+    }
+
+    /// Factor on the differences that the pictures show.
+    pub fn exaggeration(&self) -> Exaggeration {
+        let (Self::Mesh(PicturesQuery { exaggeration, .. }) | Self::Image(ImagePicturesQuery { exaggeration, .. })) =
+            self;
+        let is_it = |to: &Exaggeration| to.factor().to_bits() == *exaggeration;
+        Exaggeration::ALL.into_iter().find(is_it).unwrap_or_default()
     }
 
     pub fn reference(&self) -> &RenderingQuery {

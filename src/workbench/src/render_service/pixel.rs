@@ -5,6 +5,7 @@ use chromascope_core::query::Ask as _;
 use chromascope_core::query::render::Roughness;
 use chromascope_core::reflectance::{Normalization, Regime, beta, kappa};
 use chromascope_core::render::{ColorimetricScale, Development, LitSamples};
+use chromascope_mesh::Part;
 
 use super::RenderedFrame;
 use crate::results::Results;
@@ -38,6 +39,8 @@ pub struct LitPixel {
     pub lab: Option<Lab>,
     /// Difference from the reference, by the pictures' metric.
     pub difference: Option<f64>,
+    /// Part of the mesh.
+    pub part: Part,
     /// g at 550 nm, with its regime and how the integral was made.
     pub roughness: Option<(f64, String)>,
 }
@@ -92,6 +95,7 @@ fn lit(
         xy: color.xyz.chromaticity(),
         lab: color.lab,
         difference: reference.and_then(|reference| shot.query.metric().between(&reference, &color)),
+        part: pictures.mesh().map_or(Part::Body, |made| made.angles.placed().part(middle)),
         roughness: roughness(shot, index, middle),
     })
 }
@@ -139,6 +143,9 @@ fn roughness(shot: &RenderedFrame, index: usize, middle: usize) -> Option<(f64, 
         return None;
     }
     let pictures = shot.made()?.mesh()?;
+    if pictures.angles.placed().part(middle).is_matte() {
+        return None;
+    }
     let geometry = pictures.angles.angles().get(middle)?.geometry();
     let (kappa, beta) = (kappa(&shading.surface, &geometry), beta(&shading.surface, &geometry));
     let regime = match Regime::of(kappa) {

@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use chromascope_core::query::Ask as _;
+use chromascope_core::mesh::Mesh;
+use chromascope_core::query::{Ask as _, Shared};
 use chromascope_figure::{Cell, Figure, FigureRoom, LegendPlace, Panel, Table};
 
 use super::claim::Subject;
@@ -135,10 +136,16 @@ fn materials(subject: &Subject<'_>, room: FigureRoom, _: Pixels) -> Option<Figur
     Some(Figure { table, caption, legend: Vec::new(), ..stacked(skin, panels) })
 }
 
+/// Pictures of the document's mesh, a file's mesh being `own`.
+pub(super) fn frame(scene: &Scene<'_>, own: Option<&Shared<Mesh>>, pixels: Pixels) -> Result<RenderedFrame, String> {
+    let viewpoint = Orbit::of(&scene.document.render).viewpoint(1.0);
+    let (mesh, viewpoint) = scene.mesh_of(own).zip(viewpoint).ok_or("its mesh is not read")?;
+    RenderedFrame::of_mesh(scene, mesh, viewpoint, pixels).map_err(|error| error.to_string())
+}
+
 fn pictures(scene: &Scene<'_>, room: FigureRoom, pixels: Pixels) -> Option<Figure> {
-    let orbit = Orbit::of(&scene.document.render.mesh);
     // Times of this run, which it has none of, are no part of a figure.
-    let frame = RenderedFrame::of_mesh(scene, scene.mesh_of(None)?, orbit.viewpoint(1.0)?, pixels).ok()?;
+    let frame = frame(scene, None, pixels).ok()?;
     let look = FigureLook { pictures: Some(Arc::new(frame)), ..FigureLook::default() };
     let figure = render::KIND.figure(scene, &look, room)?;
     let time = figure.table.place("time_ms")?;

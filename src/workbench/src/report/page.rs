@@ -4,12 +4,11 @@ use std::fmt::Write as _;
 
 use super::claim::{CANON, Finding, KODAK, NIKON, Subject, Value, Verdict};
 use super::figures::FIGURES;
+use super::html::{apart, escaped, head, origin, row};
 use super::{FORMS, Judged, file_name};
 use crate::document::render::{BALANCE, LEAF, SKIN, SUN};
 use crate::document::{CHART, PAPER_REFERENCE, SetKind};
 use crate::format::{capitalized, fixed};
-
-const STYLE: &str = include_str!("../../../../assets/report/report.css");
 
 /// Data of the paper with the data in their place, by kind and name.
 const DATA: [(&str, SetKind, &str); 9] = [
@@ -33,13 +32,10 @@ const SHAPES: [(&str, &str); 3] = [
 
 /// The page; `drawn` gives the figures as SVG, by place.
 pub(super) fn page<'a>(subject: &Subject<'_>, judged: &[Judged], drawn: &dyn Fn(usize) -> Option<&'a str>) -> String {
-    let mut out = String::new();
+    let mut out = head("Report on Huynh and Robles-Kelly 2007");
     let _ = write!(
         out,
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width\">\n\
-         <title>Report on Huynh and Robles-Kelly 2007</title>\n<style>{STYLE}</style>\n</head>\n<body>\n\
-         <h1>What holds of the paper</h1>\n\
+        "<h1>What holds of the paper</h1>\n\
          <p>C. P. Huynh and A. Robles-Kelly, <cite>Comparative Colorimetric Simulation and Evaluation of Digital Cameras \
          Using Spectroscopy Data</cite> (2007), computed again with public data by Chromascope {}. {}</p>\n",
         env!("CARGO_PKG_VERSION"),
@@ -51,10 +47,6 @@ pub(super) fn page<'a>(subject: &Subject<'_>, judged: &[Judged], drawn: &dyn Fn(
     data(&mut out, subject);
     out.push_str("</body>\n</html>\n");
     out
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 /// Numbers of verdicts on the paper's claims in words.
@@ -177,17 +169,12 @@ fn figures<'a>(out: &mut String, drawn: &dyn Fn(usize) -> Option<&'a str>) {
         let _ = writeln!(
             out,
             "<figure id=\"figure{number}\">\n{}\n<figcaption>Figure {number}: {}. {}</figcaption>\n</figure>",
-            apart(svg, figure.number).trim_end(),
+            apart(svg, &format!("f{}", figure.number)).trim_end(),
             escaped(figure.title),
             links.join(" "),
             number = figure.number
         );
     }
-}
-
-/// A figure whose names of parts no other figure of the page has.
-fn apart(svg: &str, number: u8) -> String {
-    svg.replace("id=\"panel", &format!("id=\"f{number}-panel")).replace("url(#panel", &format!("url(#f{number}-panel"))
 }
 
 fn data(out: &mut String, subject: &Subject<'_>) {
@@ -204,24 +191,17 @@ fn data(out: &mut String, subject: &Subject<'_>) {
     };
     let mut rows: Vec<[String; 4]> = Vec::new();
     for (paper, kind, name) in DATA.into_iter().filter(|(_, kind, name)| is_used(*kind, name)) {
-        rows.push(row(subject, paper, kind, name));
+        rows.push(stand_in(subject, paper, kind, name));
     }
     for camera in own.iter().filter(|camera| ![CANON, NIKON, KODAK].contains(&camera.as_str())) {
-        rows.push(row(subject, "–", SetKind::Camera, camera));
+        rows.push(stand_in(subject, "–", SetKind::Camera, camera));
     }
     rows.extend(SHAPES.map(|(paper, here)| [paper, here, "", ""].map(str::to_owned)));
-    for row in rows {
-        let cells = row.map(|cell| format!("<td>{}</td>", escaped(&cell)));
-        let _ = writeln!(out, "<tr>{}</tr>", cells.concat());
-    }
+    out.extend(rows.into_iter().map(row));
     out.push_str("</tbody>\n</table>\n");
 }
 
-fn row(subject: &Subject<'_>, paper: &str, kind: SetKind, name: &str) -> [String; 4] {
-    let scene = subject.scene(subject.document);
-    let entry = scene.entry(kind, name).or_else(|_| scene.chart_entry(name)).ok();
-    let header = entry.and_then(|entry| entry.header);
-    let [source, license] =
-        header.map_or_else(Default::default, |header| [header.source.clone(), header.license.clone()]);
+fn stand_in(subject: &Subject<'_>, paper: &str, kind: SetKind, name: &str) -> [String; 4] {
+    let [source, license] = origin(&subject.scene(subject.document), kind, name);
     [paper.to_owned(), name.to_owned(), source, license]
 }

@@ -1,5 +1,7 @@
 //! Conditions of numbers, in words, for tables and pictures.
 
+use chromascope_core::query::CameraMetric;
+use chromascope_core::query::metrics::MetricGroup;
 use chromascope_figure::Column;
 
 use super::Scene;
@@ -56,13 +58,14 @@ impl Scene<'_> {
     }
 
     /// Conditions of figures of merit that no other figure has, in sentences.
-    pub fn metrics_words(&self) -> String {
+    pub fn metrics_words(&self, metrics: &[CameraMetric]) -> String {
         let pixel = self.document.pixel.map_or_else(String::new, |pixel| format!(" Pixel: {}.", pixel.describe()));
         let compared = self.document.compared.iter().filter(|of| of.kind == SetKind::Camera);
         let refused = self.refused_uncertainties(compared.map(|of| of.name.as_str()));
-        format!("Locus metrics at {} K.{pixel} {}", self.document.temperature_k, refused.join(" "))
-            .trim_end()
-            .to_owned()
+        let has_loci = metrics.iter().any(|metric| metric.group == MetricGroup::Locus);
+        let locus =
+            if has_loci { format!("Locus metrics at {} K.", self.document.temperature_k) } else { String::new() };
+        format!("{locus}{pixel} {}", refused.join(" ")).trim().to_owned()
     }
 
     /// Columns with the conditions of a table under the document's light.

@@ -6,10 +6,10 @@ use chromascope_core::camera::ChannelRatio;
 use chromascope_core::camera::quality::Electrons;
 use chromascope_core::metamers::{Confusion, MetamerLimits, MetamerPair};
 use chromascope_core::patch_set::{COLOR_CHECKER_CHROMATIC, PatchSet};
-use chromascope_core::query::metrics::OwnUncertainties;
+use chromascope_core::query::metrics::{MetricSet, OwnUncertainties};
 use chromascope_core::query::{
     Ask, CameraMetric, CameraMetrics, CameraMetricsQuery, IndexConditions, MetamersQuery, MetricUncertaintiesQuery,
-    MetricUncertainty, MetricValue, Query, RenderingQuery, Shared,
+    MetricUncertainty, MetricValue, PatchColorsQuery, Query, RenderingQuery, Shared,
 };
 use chromascope_core::spectral::Sensor;
 use chromascope_core::units::Kelvin;
@@ -41,6 +41,8 @@ pub struct MetricsConditions {
     electrons: Option<Electrons>,
     /// Uncertainties that the files of light and chart state.
     own: OwnUncertainties,
+    /// Metrics that are shown or sorted by.
+    wanted: MetricSet,
 }
 
 impl MetricsConditions {
@@ -52,6 +54,7 @@ impl MetricsConditions {
             temperature: self.temperature,
             index: self.index.clone(),
             electrons: self.electrons,
+            wanted: self.wanted,
         }
     }
 }
@@ -278,6 +281,8 @@ pub struct MetamerRow {
     /// Name of its set, and of each in it.
     pub names: [[String; 2]; 2],
     pub kinds: [SetKind; 2],
+    /// The two in sRGB as the reference renders them, and as the camera does.
+    pub colors: [[[u8; 3]; 2]; 2],
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -318,10 +323,17 @@ impl Query for CatalogMetamersQuery {
             let (patch, set) = (query.sets[set].patches().get(patch)?.name.clone(), self.sets.get(set)?);
             Some(([set.name.clone(), patch], set.kind))
         };
+        let color = |by: &RenderingQuery, place: usize| {
+            let [set, patch] = query.at(place)?;
+            let colors = ask.ask(&PatchColorsQuery { rendering: by.clone(), patches: query.sets.get(set)?.clone() });
+            Some((*colors).as_ref().ok()?.get(patch)?.srgb.bytes)
+        };
         let row = |pair: &MetamerPair| {
             let [a, b] = pair.places.map(named);
             let ((first, a), (second, b)) = a.zip(b)?;
-            Some(MetamerRow { pair: *pair, names: [first, second], kinds: [a, b] })
+            let seen = |by: &RenderingQuery| Some([color(by, pair.places[0])?, color(by, pair.places[1])?]);
+            let colors = [seen(&self.reference)?, seen(&self.rendering)?];
+            Some(MetamerRow { pair: *pair, names: [first, second], kinds: [a, b], colors })
         };
         Ok(FoundMetamers { rows: found.pairs.iter().filter_map(row).collect(), searched: found.searched })
     }
@@ -330,32 +342,12 @@ impl Query for CatalogMetamersQuery {
 impl Scene<'_> {
     /// Query for all figures of merit of a sensor under the document's conditions, the locus at the marked temperature.
     pub fn camera_metrics_query(&self, kind: SetKind, name: &str) -> Result<CameraMetricsQuery> {
-        self.camera_metrics_query_at(kind, name, self.document.temperature_k)
-    }
-
-    /// Query for all figures of merit of a sensor, with the locus at a temperature in kelvins.
-    pub fn camera_metrics_query_at(&self, kind: SetKind, name: &str, temperature_k: f64) -> Result<CameraMetricsQuery> {
-        Ok(self.metrics_conditions(temperature_k)?.query(self.sensor(kind, name)?))
-    }
-
-    /// Query for the uncertainties of a sensor's figures of merit; an observer has none.
-    pub fn metric_uncertainties_query(
-        &self,
-        kind: SetKind,
-        name: &str,
-        metrics: CameraMetricsQuery,
-    ) -> Result<MetricUncertaintiesQuery> {
-        let failed = |error| SceneError::Load { name: name.to_owned(), error };
-        let ratio = self.channel_ratio_query(name).ok().filter(|_| kind == SetKind::Camera);
-        let (place, own) = (self.entry(kind, name)?.place, self.own_uncertainties()?);
-        uncertainties_query(metrics, &place, (ratio.as_ref(), own), self.results).map_err(failed)
+        Ok(self.metrics_conditions(self.document.temperature_k, MetricSet::ALL)?.query(self.sensor(kind, name)?))
     }
 
     pub fn camera_figures(&self, kind: SetKind, name: &str) -> Result<CameraFigures> {
-        let query = self.camera_metrics_query(kind, name)?;
-        let metrics = self.results.ask(&query);
-        let uncertainties = Some(self.results.ask(&self.metric_uncertainties_query(kind, name, query)?));
-        Ok(CameraFigures { metrics, uncertainties })
+        let query = self.card_query(&SensorId { kind, name: name.to_owned() })?.with_uncertainties();
+        self.loaded(&query, name)
     }
 
     /// The cameras of a choice, each with its query. Loads none of them.
@@ -365,7 +357,7 @@ impl Scene<'_> {
             RankedCameras::Compared => self.document.compared(SetKind::Camera, &entry.name).is_some(),
             RankedCameras::Yours => entry.is_own(),
         };
-        let conditions = self.metrics_conditions(self.document.temperature_k);
+        let conditions = self.metrics_conditions(self.document.temperature_k, MetricSet::ALL);
         let conditions = conditions.map(Shared::new).map_err(|error| error.to_string());
         let camera = |entry: Entry| RankedCamera {
             query: conditions.clone().map(|conditions| self.metrics_query_of(&entry, conditions)),
@@ -383,7 +375,16 @@ impl Scene<'_> {
 
     /// Query for the figures of merit of a camera, which is loaded where it is answered.
     pub fn card_query(&self, camera: &SensorId) -> Result<CatalogMetricsQuery> {
-        let conditions = Shared::new(self.metrics_conditions(self.document.temperature_k)?);
+        let conditions = Shared::new(self.metrics_conditions(self.document.temperature_k, MetricSet::ALL)?);
+        self.figures_query(camera, conditions)
+    }
+
+    /// The same under other conditions.
+    pub fn figures_query(
+        &self,
+        camera: &SensorId,
+        conditions: Shared<MetricsConditions>,
+    ) -> Result<CatalogMetricsQuery> {
         Ok(self.metrics_query_of(&self.entry(camera.kind, &camera.name)?, conditions))
     }
 
@@ -392,8 +393,8 @@ impl Scene<'_> {
         CatalogMetricsQuery { place: camera.place.clone(), conditions, ratio, with_uncertainties: false }
     }
 
-    /// Conditions of figures of merit, the locus at a temperature in kelvins. Loads no camera.
-    pub fn metrics_conditions(&self, temperature_k: f64) -> Result<MetricsConditions> {
+    /// Conditions of the figures of merit that are wanted, the locus at a temperature in kelvins. Loads no camera.
+    pub fn metrics_conditions(&self, temperature_k: f64, wanted: MetricSet) -> Result<MetricsConditions> {
         Ok(MetricsConditions {
             reference: self.rendering_of(SetKind::Observer, &self.document.reference)?,
             patches: self.patches()?,
@@ -401,6 +402,7 @@ impl Scene<'_> {
             index: self.index_conditions()?,
             electrons: self.document.pixel.and_then(|pixel| pixel.electrons().ok()),
             own: self.own_uncertainties()?,
+            wanted,
         })
     }
 

@@ -3,7 +3,7 @@
 use chromascope_core::scene::Viewpoint;
 use serde::{Deserialize, Serialize};
 
-use crate::document::render::MeshChoice;
+use crate::document::render::{MeshChoice, RenderSettings};
 
 /// The distance of an orbit from which a mesh fills the picture, at the initial field of view; of a round one, in radii.
 pub const FRAMED: f64 = 3.6;
@@ -28,10 +28,14 @@ impl Default for Orbit {
 }
 
 impl Orbit {
-    pub fn of(mesh: &MeshChoice) -> Self {
-        match mesh {
-            MeshChoice::Fern => Self { pitch_deg: 15.0, ..Self::default() },
-            _ => Self::default(),
+    /// The view that a mesh begins with.
+    pub fn of(settings: &RenderSettings) -> Self {
+        let usual = Self::default();
+        match settings.mesh {
+            // From elsewhere a frond points at the eye.
+            MeshChoice::Fern if settings.composed => Self { yaw_deg: usual.yaw_deg + 20.0, pitch_deg: 15.0, ..usual },
+            MeshChoice::Fern => Self { pitch_deg: 15.0, ..usual },
+            _ => usual,
         }
     }
 

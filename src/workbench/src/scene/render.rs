@@ -1,17 +1,24 @@
 //! The rendered scene as a query.
 
 use chromascope_core::query::render::picture::PicturesQuery;
-use chromascope_core::query::render::{GeometryQuery, MeshQuery, ShadingQuery, VisibilityQuery};
+use chromascope_core::query::render::{GeometryQuery, MeshQuery, Parts, ShadingQuery, VisibilityQuery};
 use chromascope_core::query::{RenderingQuery, Shared};
 use chromascope_core::render::{Quality, RasterSize, Reach, Shadows};
 use chromascope_core::scene::Viewpoint;
 use chromascope_core::spectral::GridSpectrum;
-use chromascope_mesh::Mesh;
+use chromascope_mesh::stage::Stage;
+use chromascope_mesh::{Mesh, Part};
 
 use super::{ComparedSensor, Result, Scene, SceneError};
 use crate::catalog::load::PatchesQuery;
-use crate::document::render::{BALANCE, MeshChoice, SUN};
-use crate::document::{SetKind, WhiteBalanceChoice};
+use crate::document::render::{BALANCE, HAIR, MeshChoice, SUN};
+use crate::document::{CHART, SetKind, WhiteBalanceChoice};
+
+/// Patches of [`CHART`] that card and ground are of.
+const BLACK: &str = "black";
+const GRAY: &str = "neutral 5";
+/// A chart in the picture has no more patches: they would be smaller than pixels.
+const MOST_PATCHES: usize = 600;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Finish {
@@ -54,7 +61,7 @@ impl Scene<'_> {
     /// The selected mesh; a file's mesh is `own`, once it was read.
     pub fn mesh_of(&self, own: Option<&Shared<Mesh>>) -> Option<MeshQuery> {
         let settings = &self.document.render;
-        match &settings.mesh {
+        let mesh = match &settings.mesh {
             MeshChoice::Head if settings.garment.is_some() => Some(MeshQuery::ClothedHead(settings.triangles)),
             MeshChoice::Head => Some(MeshQuery::Head(settings.triangles)),
             MeshChoice::Fern => Some(MeshQuery::Fern(settings.triangles)),
@@ -62,7 +69,49 @@ impl Scene<'_> {
             MeshChoice::Plane => Some(MeshQuery::Plane),
             MeshChoice::File(_) => own.cloned().map(MeshQuery::Own),
             MeshChoice::Image(_) => None,
+        }?;
+        let stage = self.stage();
+        Some(if stage == Stage::default() { mesh } else { MeshQuery::Staged(Box::new(mesh), stage) })
+    }
+
+    fn stage(&self) -> Stage {
+        let settings = &self.document.render;
+        let patches = settings.chart.then(|| self.patches().map_or(0, |set| set.patches().len().min(MOST_PATCHES)));
+        let cropped = settings.composed && settings.mesh == MeshChoice::Head;
+        let hair = settings.hair && settings.mesh == MeshChoice::Head;
+        Stage { patches: patches.unwrap_or(0) as u16, ground: settings.ground, hair, cropped }
+    }
+
+    /// Reflectances of what is no body: the garment, the chart's patches and what holds them, the ground.
+    fn parts(&self) -> Result<Parts> {
+        let settings = &self.document.render;
+        let garment = settings.worn().map(|garment| self.material(garment)).transpose()?;
+        let mut parts: Parts = garment.map(|garment| (Part::Garment, garment)).into_iter().collect();
+        let stage = self.stage();
+        if stage == Stage::default() {
+            return Ok(parts);
         }
+        if stage.hair {
+            let hair = self.material(HAIR)?;
+            parts.extend([Part::Hair, Part::Brows].map(|part| (part, hair.clone())));
+        }
+        if settings.chart {
+            let set = self.patches()?;
+            let patches = set.patches().iter().take(stage.patches.into());
+            let grids = patches.map(|patch| Shared::new(patch.grid.clone()));
+            parts.extend((0..).map(Part::Patch).zip(grids));
+        }
+        let card = self.patch_set(CHART, None)?;
+        let named = |name: &str| card.patches().iter().find(|patch| patch.name == name);
+        let gray = |part, name| named(name).map(|patch| (part, Shared::new(patch.grid.clone())));
+        parts.extend([gray(Part::Card, BLACK), gray(Part::Ground, GRAY)].into_iter().flatten());
+        Ok(parts)
+    }
+
+    /// The name of a patch of the chart in the picture.
+    pub fn patch_name(&self, part: Part) -> Option<String> {
+        let Part::Patch(index) = part else { return None };
+        Some(self.patches().ok()?.patches().get(usize::from(index))?.name.clone())
     }
 
     /// A sensor under the rendered scene's light, balanced to its white.
@@ -106,7 +155,7 @@ impl Scene<'_> {
         let renderings: Vec<RenderingQuery> = renderings.collect::<Result<_, _>>()?;
         let visibility = VisibilityQuery { mesh, viewpoint, size: finish.size };
         let shadows = if settings.shadows { finish.shadows } else { Shadows::Off };
-        let reach = Reach { everywhere: settings.sky > 0.0, through: settings.thin };
+        let reach = Reach { everywhere: settings.sky > 0.0 || settings.ground, through: settings.thin };
         let geometry = GeometryQuery { visibility, lighting: settings.lighting()?, shadows, reach };
         let shading = ShadingQuery {
             geometry,
@@ -116,16 +165,18 @@ impl Scene<'_> {
             quality: finish.quality,
             sky: (settings.sky > 0.0).then(|| settings.sky.to_bits()),
             open_sky: finish.open_sky,
+            bounce: self.stage().ground && !finish.open_sky,
         };
         Ok(PicturesQuery {
             shading,
             reflectance: self.material(&settings.material)?,
-            garment: settings.worn().map(|garment| self.material(garment)).transpose()?,
+            parts: self.parts()?,
             reference: self.rendered_through(SetKind::Observer, &self.document.reference)?,
             sources: renderings,
             ev: settings.exposure_ev.to_bits(),
             background: background.map(|color| color.map(f32::to_bits)),
             metric: self.document.difference,
+            exaggeration: self.document.exaggeration.factor().to_bits(),
             compared_samples: finish.compared_samples,
         })
     }

@@ -8,6 +8,7 @@ use chromascope_core::math::quantile::quantile;
 use chromascope_core::query::render::difference::{BrightSamples, Difference};
 use chromascope_core::query::{Ask, Query, RenderingQuery, Shared};
 use chromascope_core::render::develop::{develop_signals, signal_differences};
+use chromascope_core::render::exaggerate::{Exaggeration, develop_exaggerated};
 use chromascope_core::render::{
     BandWeights, ColorimetricScale, Development, ImageSensor, LitSamples, Picture, SampleQuantity,
 };
@@ -116,6 +117,8 @@ pub struct ImagePicturesQuery {
     pub sources: Vec<(RenderingQuery, bool)>,
     pub metric: Metric,
     pub ev: u64,
+    /// Factor on the pictures' differences from the reference, as bits.
+    pub exaggeration: u64,
 }
 
 #[derive(Clone, Debug)]
@@ -182,8 +185,21 @@ impl Query for ImagePicturesQuery {
             next += 1;
             let development = Development::new(rendering, f64::from_bits(self.ev).exp2() / white, None);
             let picture = develop_signals(&image.read.placed, signals, &development, &ask.stop());
-            pictures.push(Ok(Arc::new(picture.ok_or_else(stopped)?)));
+            let mut picture = picture.ok_or_else(stopped)?;
             let own = ColorimetricScale::new(rendering, white);
+            let factor = f64::from_bits(self.exaggeration);
+            if *is_compared && factor != 1.0 {
+                let how = Exaggeration {
+                    scales: [&own, &scale],
+                    srgb_from_xyz: rendering.srgb_from_xyz,
+                    brightness: f64::from_bits(self.ev).exp2(),
+                    factor,
+                    background: None,
+                };
+                let shown = develop_exaggerated(&image.read.placed, [signals, reference_signals], &how, &ask.stop());
+                picture.rgba = shown.ok_or_else(stopped)?.rgba;
+            }
+            pictures.push(Ok(Arc::new(picture)));
             let compare =
                 || signal_differences(self.metric, [signals, reference_signals], [&own, &scale], 1, &ask.stop());
             let map = if *is_compared { Some(compare().ok_or_else(stopped)?.0) } else { None };
@@ -234,7 +250,8 @@ impl Scene<'_> {
             sensors: sensors.collect(),
         };
         let (metric, ev) = (self.document.difference, wanted.exposure_ev.to_bits());
-        Ok(ImagePicturesQuery { signals, reference, sources: queries, metric, ev })
+        let exaggeration = self.document.exaggeration.factor().to_bits();
+        Ok(ImagePicturesQuery { signals, reference, sources: queries, metric, ev, exaggeration })
     }
 
     /// Use of an image as the document has it.

@@ -1,9 +1,10 @@
 //! Uncertainties of figures of merit as they are written: the same in tables, figures and files.
 
+use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::Ask as _;
 use chromascope_core::query::Shared;
 use chromascope_core::query::metrics::{Better, OwnUncertainties, UncertaintySource};
-use chromascope_core::query::{CameraMetric, MetricUncertainty, MetricValue};
+use chromascope_core::query::{CameraMetric, CameraMetrics, MetricUncertainty, MetricValue};
 use chromascope_core::spectral::{Correlation, Sensor, StatedUncertainty};
 use chromascope_figure::{Cell, Column, Table};
 
@@ -75,6 +76,30 @@ pub fn table(
         table.push(std::iter::once(name.into()).chain(metrics.iter().map(|metric| cell(row, *metric))));
     }
     table
+}
+
+/// Inserts columns with the patch of each row that differs most by a metric, and its difference or the reason for none.
+pub fn insert_worst<'a>(
+    table: &mut Table,
+    at: usize,
+    (metric, patches): (Metric, &[String]),
+    rows: impl Iterator<Item = Option<&'a CameraMetrics>>,
+) {
+    let place = Metric::ALL.iter().position(|known| *known == metric).unwrap_or(0);
+    let worst = |metrics: Option<&CameraMetrics>| {
+        let Some(metrics) = metrics else { return [Cell::Empty, Cell::Empty] };
+        let Some(&patch) = metrics.worst.get(place).and_then(|worst| worst.first()) else {
+            let why = metrics.patches.first().and_then(|patch| patch.by_metric.get(place)?.err());
+            return [Cell::Empty, why.map_or(Cell::Empty, |why| Cell::Missing(why.to_string()))];
+        };
+        let difference = metrics.patches[patch].by_metric[place].ok();
+        [patches.get(patch).map_or(Cell::Empty, |name| name.as_str().into()), difference.into()]
+    };
+    let (names, values): (Vec<Cell>, Vec<Cell>) = rows.map(worst).map(|[name, value]| (name, value)).unzip();
+    table.insert(at, Column::quantity("worst_patch", "worst patch", ""), names);
+    let [key, symbol] = [metric.column, metric.symbol].map(|name| ["worst ", name].concat());
+    let column = Column::quantity(key.replace(' ', "_"), symbol, "");
+    table.insert(at + 1, Column { decimals: Some(metric.decimals), ..column }, values);
 }
 
 /// The table with columns that tell what the uncertainties of a row are; extrapolated where any of them is.
@@ -152,8 +177,12 @@ pub fn in_words(of: impl IntoIterator<Item = MetricUncertainty>) -> String {
 
 impl Scene<'_> {
     /// Conditions of figures of merit and what ± is, in sentences.
-    pub fn metrics_words_with(&self, of: impl IntoIterator<Item = MetricUncertainty>) -> String {
-        format!("{} {}", self.metrics_words(), in_words(of)).trim_end().to_owned()
+    pub fn metrics_words_with(
+        &self,
+        metrics: &[CameraMetric],
+        of: impl IntoIterator<Item = MetricUncertainty>,
+    ) -> String {
+        format!("{} {}", self.metrics_words(metrics), in_words(of)).trim().to_owned()
     }
 
     /// Uncertainties that the files of the light and the chart state; the camera's is not among them.

@@ -49,4 +49,6 @@ pub(super) struct Place {
     /// Factor beside the reflectance.
     pub(super) light: f64,
     pub(super) surface: Surface,
+    /// True if it scatters light evenly instead ([`chromascope_mesh::Part::is_matte`]).
+    pub(super) is_matte: bool,
 }

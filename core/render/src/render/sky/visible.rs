@@ -11,10 +11,10 @@ use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-const SIDE: usize = 8;
+pub(super) const SIDE: usize = 8;
 
 /// Distance from the surface at which rays begin, in scene radii.
-const ABOVE: f64 = 1e-5;
+pub(super) const ABOVE: f64 = 1e-5;
 
 /// Side of the cube whose vertices see the same of the sky, in scene radii, and how finely their normals are told apart: of closed
 /// meshes, and of leaves, which are many and thin.
@@ -22,7 +22,7 @@ const FINE: (f32, f32) = (0.012, 2.0);
 const COARSE: (f32, f32) = (0.02, 1.0);
 
 /// Neighborhoods that one task works on.
-const CHUNK: usize = 256;
+pub(super) const CHUNK: usize = 256;
 
 /// Cells of the sky that a vertex sees, one bit a cell.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -78,14 +78,14 @@ impl SkyVisibility {
 
 /// A vertex in a neighborhood, or a neighborhood's first vertex.
 #[derive(Clone, Copy)]
-struct Member {
-    index: u32,
+pub(super) struct Member {
+    pub(super) index: u32,
     flipped: bool,
 }
 
 /// The neighborhood of each vertex, and the first vertex of each: vertices of one small cube whose normals are alike, where both
 /// sides are looked at up to the sign.
-fn neighborhoods(mesh: &Mesh, both_sides: bool) -> (Vec<Member>, Vec<Member>) {
+pub(super) fn neighborhoods(mesh: &Mesh, both_sides: bool) -> (Vec<Member>, Vec<Member>) {
     let bounds = mesh.bounds();
     let (side, fineness) = if both_sides { COARSE } else { FINE };
     let scale = 1.0 / (side * bounds.radius).max(f32::MIN_POSITIVE);
@@ -164,7 +164,7 @@ pub fn visible_share(masks: [u64; 3], weights: [f32; 3], direction: Vec3) -> f32
 }
 
 /// Direction of a cell's ray: near its middle, so that no plane through the vertex runs through the rays of a whole row of cells.
-fn ray(cell: usize) -> DVec3 {
+pub(super) fn ray(cell: usize) -> DVec3 {
     // Steps of the plastic number's sequence (Roberts 2018), which fills a square evenly.
     let aside = |step: f64| 0.8 * ((cell as f64 * step).fract() - 0.5);
     let at = |index: usize, aside: f64| (index as f64 + 0.5 + aside) * 2.0 / SIDE as f64 - 1.0;

@@ -9,11 +9,13 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 use crate::cli::arguments::{CommonArguments, PixelArguments};
 use crate::cli::render::arguments::ViewpointArguments;
-use crate::cli::settings::Given;
+use crate::cli::settings::{Given, choice};
+use crate::document::Exaggeration;
 use crate::export::Paper;
 use crate::figures::FIGURES;
 use crate::figures::chromaticity::shown::Ranges;
 use crate::figures::kind::FigureKind;
+use crate::figures::look::DifferencePlane;
 
 const EXAMPLES: &str = "Examples:
   chromascope figure chromaticity --preset paper --width 85mm --font-size 8 --out figure3.pdf
@@ -21,10 +23,11 @@ const EXAMPLES: &str = "Examples:
   chromascope figure swatches --session work.chromascope --width 3.35in --dpi 600 --out swatches.png
   chromascope figure render --mesh fern --width 174mm --out figure8.pdf
   chromascope figure head-to-head --camera \"Nikon D70\" --camera \"Nikon D200\" --temperature 3200 --out pair.pdf
+  chromascope figure head-to-head --camera \"Nikon D70\" --camera \"Nikon D200\" --out pair.tex
   chromascope figure chromaticity --range 0.3,0.5,0.3,0.42 --numbers visible --out points.csv
 
-The ending of the file decides its form: .pdf, .svg, .png, .tif, or .csv and .json, the numbers behind the figure. Text
-keeps its size whatever the width: the figure is laid out for it. In a PDF text can be searched, and its fonts are embedded.";
+The ending of the file decides its form: .pdf, .svg, .png, .tif, or .csv, .json and .tex (LaTeX with booktabs), the \
+numbers behind the figure. Text keeps its size whatever the width: the figure is laid out for it. In a PDF text can be searched, and its fonts are embedded.";
 
 /// Figures for paper, laid out for a width: PDF, SVG, PNG, or the numbers behind them as CSV
 #[derive(Debug, Args)]
@@ -54,6 +57,12 @@ pub(in crate::cli) struct FigureArguments {
     pub(super) temperature: Option<f64>,
     #[command(flatten)]
     pub(super) pixel: PixelArguments,
+    /// Factor on the differences that are drawn; numbers stay [default: 1, or the session's]
+    #[arg(long, value_name = "K", value_parser = choice::<Exaggeration>())]
+    pub(super) exaggerate: Option<Exaggeration>,
+    /// What `differences` shows
+    #[arg(long, value_parser = choice::<DifferencePlane>(), default_value = DifferencePlane::default().key())]
+    pub(super) plane: DifferencePlane,
     /// What is rendered: head, fern, sphere, plane, or an OBJ, PLY or STL file [default: the head, or the session's]
     #[arg(long, value_name = "MESH")]
     pub(super) mesh: Option<OsString>,

@@ -65,7 +65,7 @@ fn content<'a>(table: &'a SpectralFile, title: &'a str) -> Content<'a> {
 }
 
 /// Writes curves to a place: the text of another format, or the table, with its files beside it unless it is a stream.
-pub(super) fn put(
+pub(in crate::cli) fn put(
     name: &str,
     place: &Path,
     (format, is_described): (Format, bool),

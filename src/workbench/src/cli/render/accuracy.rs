@@ -101,7 +101,7 @@ impl Bench {
             let Some(shading) = (*shading).as_ref() else {
                 return Camera { measure: made.scene.results.ask(&image.measure), plan: None };
             };
-            let measure = image.measure.in_picture(shading, made.scene.results);
+            let measure = image.measure.in_picture(shading, image.ground(), made.scene.results);
             let own = (*measure).as_ref().ok();
             let plan = own.and_then(|measure| image.plan(shading, measure, made.scene.results).ok());
             Camera { measure, plan }

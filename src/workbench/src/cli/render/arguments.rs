@@ -10,7 +10,8 @@ use clap::{Args, ValueEnum};
 use spectral_file::Values;
 
 use crate::cli::arguments::SourceArguments;
-use crate::cli::settings::Given;
+use crate::cli::settings::{Given, choice};
+use crate::document::Exaggeration;
 use crate::document::render::RenderSettings;
 
 const EXAMPLES: &str = "Examples:
@@ -64,12 +65,17 @@ pub(in crate::cli) struct RenderArguments {
     /// [default: D55]
     #[arg(long = "white-balance", alias = "white", value_name = "WHITE", help_heading = SCENE)]
     pub(super) white: Option<String>,
-    /// Direction to the light in view axes: right, up, toward the viewer [default: 25° up, 25° left]
+    /// Direction to the light in view axes: right, up, toward the viewer [default: 35° up, 30° left; 25° up,
+    /// 25° left in the paper's start]
     #[arg(long, value_name = "x,y,z", value_parser = three, allow_hyphen_values = true, help_heading = SCENE)]
     pub(super) light: Option<[f64; 3]>,
     /// Metric of the differences from the reference [default: delta-e2000, or xy with the paper's matrix]
     #[arg(long, value_name = "METRIC", value_parser = metrics(), help_heading = SCENE)]
     pub(super) difference: Option<String>,
+    /// Factor on the pictures' differences from the reference; numbers stay
+    #[arg(long, value_name = "K", value_parser = choice::<Exaggeration>(), default_value = Exaggeration::default().key(),
+          help_heading = SCENE)]
+    pub(super) exaggerate: Exaggeration,
     #[command(flatten)]
     pub(super) viewpoint: ViewpointArguments,
     /// Pixels across and down

@@ -7,7 +7,7 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::arguments::RenderArguments;
+use super::arguments::{Format, RenderArguments};
 use crate::atomic::fitting;
 use crate::cli::error::{CliError, Result, refused};
 use crate::format::slug;
@@ -46,10 +46,14 @@ pub(in crate::cli) fn make_folder(folder: &Path) -> Result<()> {
 
 /// A file for each sensor, no two alike.
 pub(super) fn file_names(arguments: &RenderArguments, mesh: &str, sources: &[ComparedSensor]) -> Vec<PathBuf> {
+    // A picture that shows differences multiplied says so; OpenEXR holds numbers, which never are.
+    let note = arguments.exaggerate.note().filter(|_| arguments.format == Format::Png);
+    let note = note.map_or_else(String::new, |note| format!("_{}", slug(&note.replace('×', "x"))));
     let here = arguments.out == Path::new(".");
     let mut taken: Vec<String> = Vec::new();
     for source in sources {
-        let stem = format!("{}_{}", slug(mesh), slug(&source.label));
+        let note = if source.is_reference { "" } else { &note };
+        let stem = format!("{}_{}{note}", slug(mesh), slug(&source.label));
         let numbered = |number: &str| fitting(&stem, &format!("{number}.{}", arguments.format.ending()));
         let numbers = std::iter::once(String::new()).chain((2_u32..).map(|number| format!("-{number}")));
         taken.extend(numbers.map(|number| numbered(&number)).find(|name| !taken.contains(name)));

@@ -39,7 +39,8 @@ impl Setup {
         let choice = mesh_choice(&arguments.mesh)?;
         // What only arguments decide comes before files are read.
         let [width, height] = arguments.size.map(f64::from);
-        let viewpoint = viewpoint(arguments.viewpoint, Orbit::of(&choice), width / height)?;
+        let viewpoint = |settings: &RenderSettings| viewpoint(arguments.viewpoint, Orbit::of(settings), width / height);
+        viewpoint(&RenderSettings::default())?;
         let size = raster(arguments)?;
         let mut request = compared_request(arguments, matches)?;
         let start = request.document.render.clone();
@@ -57,6 +58,7 @@ impl Setup {
         let own_mesh = own_mesh(&request.document.render.mesh)?;
         let finish = Finish::whole(size, request.document.render.quality());
         let mesh_name = mesh_name(&request.document.render.mesh);
+        let viewpoint = viewpoint(&request.document.render)?;
         Ok(Self { request, viewpoint, finish, own_mesh, mesh_name, reading: start.elapsed() })
     }
 }
@@ -84,6 +86,7 @@ pub(super) fn compared_request(arguments: &RenderArguments, matches: &ArgMatches
         }
         request.document.difference = metric;
     }
+    request.document.exaggeration = arguments.exaggerate;
     for (slot, (kind, name)) in request.sources.iter().enumerate() {
         let known = |other: &Compared| other.kind == *kind && other.name == *name;
         if !request.document.compared.iter().any(known) {
@@ -140,8 +143,8 @@ const NO_DIRECTION: &str =
 /// Render settings: those of the paper's head or fern with the arguments applied.
 fn settings(arguments: &RenderArguments, mesh: MeshChoice, start: RenderSettings) -> Result<RenderSettings> {
     let usual = if mesh == MeshChoice::Fern { RenderSettings::fern() } else { RenderSettings::default() };
-    let RenderSettings { garment, specular, sky, .. } = start;
-    let usual = RenderSettings { mesh, garment, specular, sky, sunlight: false, ..usual };
+    let RenderSettings { material, index, thin, .. } = usual;
+    let usual = RenderSettings { mesh, material, index, thin, sunlight: false, ..start };
     let mut settings = arguments.settings.applied_to(usual);
     if arguments.settings.has("tolerance") {
         settings.quality = QualityLevel::Tolerance;

@@ -98,7 +98,7 @@ impl Settings for RenderSettings {
             flag(SCENE, "triangles", "N", ""; usual: "100000", range: [8.0, 5e6], whole: true);
         "material" "Material" in OF_MESH, by "", "Reflectance of the surface", own(), elsewhere("material");
         "garment" "Garment" in unless(OF_MESH, |s| idle(s, NOT_OF_IMAGES, s.mesh != MeshChoice::Head)), by "clothes",
-            "Reflectance of the head's garment; its surface is that of the rest. Figures 8 and 9 have none",
+            "Reflectance of the head's garment, which scatters evenly. Figures 8 and 9 have none",
             own(), elsewhere("garment");
         "sunlight" "Light and white balance" in OF_MESH, by "sun scene",
             "Light and white balance of the pictures: their own, or those of the scene bar",
@@ -123,6 +123,26 @@ impl Settings for RenderSettings {
         "light_distance" "Point light" in BESIDE, by "near",
             "Point light at a finite distance instead of parallel rays; no inverse-square falloff",
             switch(|s| s.light_distance.is_some(), |s, on| s.light_distance = on.then_some(NEAR)), none();
+        "chart" "Chart beside the mesh" in OF_MESH, by "patches card ColorChecker swatches",
+            "The compared patches as a card beside the mesh, lit as it is. They scatter evenly (Lambert), as does cloth; a white one \
+             that faces the light is as bright as a white of the mesh's surface. A click on a patch there selects it",
+            switch(|s| s.chart, |s, on| s.chart = on),
+            flag(SCENE, "chart", "BOOL", " [default: true; false in the paper's start]";);
+        "ground" "Gray ground" in BESIDE, by "floor plane shadow contact",
+            "A level gray plane beneath the mesh (neutral 5 of the ColorChecker, 20 %), with the shadow on it and the light that \
+             it sends up: one diffuse reflection, spectral",
+            switch(|s| s.ground, |s, on| s.ground = on),
+            flag(SCENE, "ground", "BOOL", " [default: true; false in the paper's start]";);
+        "hair" "Hair and brows" in unless(OF_MESH, |s| idle(s, NOT_OF_IMAGES, s.mesh != MeshChoice::Head)), by "region head",
+            "Short hair and brows of the head, of a measured reflectance (brown hair 097, Vrhel). Lips and eyes are of the material: no \
+             measured reflectance of theirs with terms of use was found",
+            switch(|s| s.hair, |s, on| s.hair = on), flag(SCENE, "hair", "BOOL", " [default: true; false in the paper's start]";);
+        "composed" "Composed view" in unless(BESIDE, |s| {
+            idle(s, NOT_OF_IMAGES, !matches!(s.mesh, MeshChoice::Head | MeshChoice::Fern))
+        }), by "crop portrait framing",
+            "As a photographer frames it: the head down to the chest, the fern turned so that no frond points at the eye",
+            switch(|s| s.composed, |s, on| s.composed = on),
+            flag(SCENE, "composed", "BOOL", " [default: true; false in the paper's start]";);
         "thin" "Light through leaves" in OF_MESH, by "transmittance",
             "Light also passes through, as through a leaf: its transmittance from the material's reflectance by the plate \
              model (PROSPECT: 1.5 plates of index 1.45), alike in all directions",
@@ -163,8 +183,8 @@ impl Settings for RenderSettings {
             pick(specular: Specular, List),
             flag(MODEL, "specular", "SPECULAR", " [default: fresnel; paper in the paper's start]";);
         "exposure_ev" "Exposure" in unless(OF_VIEW, |_| None), by "EV brightness",
-            "Exposure, the same for all cameras. At 0 EV the material facing the light has 40 % of the screen's white; of a \
-             spectral image, a reflectance of 1 is that white, or the luminance that 99.5 % of the radiances stay below",
+            "Exposure, the same for all cameras. At 0 EV the material facing the light has 40 % of the screen's white, or, with a \
+             chart beside the mesh, a white has it all; of a spectral image, a reflectance of 1 is that white, or the luminance that 99.5 % of the radiances stay below",
             field(exposure_ev, " EV", [-6.0, 6.0]; step: Some(0.1), valid: Some([-20.0, 20.0]), clamps: true),
             flag(PICTURE, "exposure", "EV", ""; usual: "0", range: [-64.0, 64.0], unit: "EV");
         // A tolerance has a number of its own.

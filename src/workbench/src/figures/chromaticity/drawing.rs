@@ -9,6 +9,7 @@ use chromascope_figure::{InkRole, Label, Labels, Mark, Panel, Place, Projection,
 use super::shown::Ranges;
 use crate::document::Diagram;
 use crate::figures::look::FigureLook;
+use crate::names::shortened;
 use crate::plot_item::{PickIndex, SensorId};
 use crate::scene::{ComparedSensor, Scene};
 
@@ -157,7 +158,8 @@ pub(super) fn label(rank: Rank, text: impl Into<String>, ink: InkRole, places: V
 pub(super) fn placed(mut all: Vec<(Rank, Label)>, panel: &Panel) -> Vec<Mark> {
     let mut labels = Labels::new(panel);
     all.sort_by_key(|(rank, label)| (*rank, label.ink.role != InkRole::Reference));
-    let names: Vec<String> = all.iter().map(|(_, label)| label.text.clone()).collect();
+    let sensors = all.iter().filter(|(rank, _)| *rank == Rank::Sensor);
+    let names: Vec<String> = sensors.map(|(_, label)| label.text.clone()).collect();
     let end = |label: &Label| Some(labels.projection().at(*label.starts.last()?));
     let sensors = all.iter().filter(|(rank, _)| *rank == Rank::Sensor);
     let ends: Vec<[f64; 2]> = sensors.filter_map(|(_, label)| end(label)).collect();
@@ -178,12 +180,4 @@ pub(super) fn placed(mut all: Vec<(Rank, Label)>, panel: &Panel) -> Vec<Mark> {
         labels.place(label);
     }
     labels.into_marks()
-}
-
-/// A camera's name without what stands in brackets, and without its maker too, where no other name holds the same.
-fn shortened(name: &str, names: &[String]) -> Vec<String> {
-    let model = name.split_once(" (").map_or(name, |(model, _)| model);
-    let is_alone = |short: &&str| names.iter().filter(|other| other.contains(*short)).count() == 1;
-    let without_maker = model.split_once(' ').map(|(_, rest)| rest);
-    [Some(model), without_maker].into_iter().flatten().filter(is_alone).map(str::to_owned).collect()
 }

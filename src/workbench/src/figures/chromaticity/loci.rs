@@ -20,22 +20,29 @@ const HALFWAY: f64 = 4.0;
 
 /// Coordinates beyond this are not drawn.
 const FAR: f64 = 3.0;
+/// Coordinates of spectral loci beyond this, twice the diagram's, are not drawn, nor lines that long: they come back from infinity.
+const AXES: f64 = 1.6;
 
-/// Adds the loci of all sensors, the reference's on top.
+/// Largest number of sensors beside the reference that are named at their loci: of more, the legend tells.
+const NAMED: usize = 6;
+
+/// Adds the loci of all sensors, the reference's thick one below the others.
 pub(super) fn add(drawing: &mut Drawing<'_>, sources: &[ComparedSensor]) {
-    for source in sources.iter().rev() {
+    let are_named = sources.iter().filter(|source| !source.is_reference).count() <= NAMED;
+    let (reference, others): (Vec<_>, Vec<_>) = sources.iter().rev().partition(|source| source.is_reference);
+    for source in reference.into_iter().chain(others) {
         // While B is held, the reference replaces every camera.
         if drawing.look.blink && !source.is_reference {
             continue;
         }
         match drawing.scene.locus(source.kind, &source.name) {
-            Ok(locus) => add_one(drawing, source, &locus.points),
+            Ok(locus) => add_one(drawing, source, &locus.points, are_named),
             Err(error) => drawing.refused.push(error.to_string()),
         }
     }
 }
 
-fn add_one(drawing: &mut Drawing<'_>, source: &ComparedSensor, locus: &[LocusPoint]) {
+fn add_one(drawing: &mut Drawing<'_>, source: &ComparedSensor, locus: &[LocusPoint], is_named: bool) {
     const GAP: [f64; 2] = [f64::NAN; 2];
     // Where the sum of signals passes through zero, the locus goes to infinity and returns from the other side: no line
     // connects them.
@@ -56,7 +63,8 @@ fn add_one(drawing: &mut Drawing<'_>, source: &ComparedSensor, locus: &[LocusPoi
         line.with_stroke(source.role, source.width)
     };
     drawing.loci.insert(drawing.marks.len());
-    drawing.marks.push(line(measured).with_halo(InkRole::Plot));
+    // Halos would erase the reference's line below.
+    drawing.marks.push(line(measured));
     if !beyond.is_empty() {
         drawing.loci.insert(drawing.marks.len());
         drawing.marks.push(line(beyond).with_dash(Dash::Dotted));
@@ -72,7 +80,9 @@ fn add_one(drawing: &mut Drawing<'_>, source: &ComparedSensor, locus: &[LocusPoi
         add_marker(drawing, source, &points)
     };
     add_mark(drawing, source);
-    add_end(drawing, source, &points, marker);
+    if is_named || source.is_reference {
+        add_end(drawing, source, &points, marker);
+    }
 }
 
 /// A dot at each marked temperature of a camera's locus.
@@ -189,7 +199,9 @@ fn add_mark(drawing: &mut Drawing<'_>, source: &ComparedSensor) {
     let kelvin = drawing.scene.document.temperature_k;
     let Some(at) = at_temperature(drawing, source, kelvin) else { return };
     let tag = drawing.things.tag(PlotItem::Radiator { source: id(source), kelvin });
-    let ring = Shape::Points { points: vec![at], marker: Marker::Circle, radius: 4.5 };
+    // The reference's ring is seen around the others.
+    let radius = if source.is_reference { 7.0 } else { 4.5 };
+    let ring = Shape::Points { points: vec![at], marker: Marker::Circle, radius };
     let mark = Mark::new(tag, format!("{} {kelvin:.0} K", source.label), ring);
     drawing.small.push(mark.with_stroke(source.role, 1.5).with_fill(InkRole::Plot).with_halo(InkRole::Plot));
 }
@@ -214,8 +226,22 @@ fn radiator(scene: &Scene<'_>, source: &ComparedSensor, kelvin: f64) -> Option<L
 pub(super) fn add_monochromatic(drawing: &mut Drawing<'_>, sources: &[ComparedSensor]) {
     for source in sources {
         let Ok(points) = drawing.scene.monochromatic(source.kind, &source.name) else { continue };
-        let points: Vec<[f64; 2]> = points.iter().filter_map(|p| drawing.place(p.xy)).collect();
+        let near = |at: &[f64; 2]| at.iter().all(|value| value.abs() < AXES);
+        let placed: Vec<[f64; 2]> =
+            points.iter().map(|p| drawing.place(p.xy).filter(near).unwrap_or([f64::NAN; 2])).collect();
+        let mut points: Vec<[f64; 2]> = Vec::new();
+        for at in placed {
+            let leaps = points.last().is_some_and(|from| (from[0] - at[0]).hypot(from[1] - at[1]) > 0.5 * AXES);
+            points.extend(leaps.then_some([f64::NAN; 2]));
+            points.push(at);
+        }
         let tag = drawing.things.tag(PlotItem::Sensor(id(source)));
+        let inside = points.iter().filter(|at| drawing.frame.contains(drawing.frame.at(**at), 40.0));
+        if let Some(top) = inside.max_by(|a, b| a[1].total_cmp(&b[1])) {
+            let places = [6.0, 14.0, 24.0].into_iter().flat_map(|by| Place::around(*top, [0.0, -1.0], by)).collect();
+            let (rank, label) = label(Rank::Ground, format!("{}, spectral", source.label), source.role, places);
+            drawing.labels.push((rank, Label { tag, ..label }));
+        }
         let name = format!("{}: monochromatic light", source.label);
         let line = Mark::new(tag, name, Shape::Line { points, closed: false });
         drawing.marks.push(line.with_stroke(source.role, 1.2).with_dash(Dash::Solid));

@@ -8,7 +8,7 @@ use chromascope_figure::{Ink, InkRole, Label, Mark, Marker, Place, Shape};
 
 use super::drawing::{Drawing, Frame, Rank, id, label as ranked};
 use crate::document::{Diagram, SetKind};
-use crate::format::number;
+use crate::format::{fixed, number};
 use crate::palette::LINE_TAIL;
 use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::{ComparedSensor, Scene};
@@ -38,7 +38,8 @@ pub(super) fn add(drawing: &mut Drawing<'_>, sources: &[ComparedSensor]) {
     let reference =
         drawing.scene.patch_colors(SetKind::Observer, &drawing.scene.document.reference).unwrap_or_default();
     let few = names.len() <= FEW;
-    let diameter = if drawing.sketch { DIAMETERS[1] } else { diameter(names.len() * sources.len()) };
+    let diameter =
+        if drawing.sketch { DIAMETERS[1] } else { diameter(names.len() * drawing.scene.document.compared.len()) };
     let cameras = sources.iter().filter(|source| !source.is_reference).count();
     let mut below = 0.0;
     for source in sources.iter().rev() {
@@ -47,7 +48,7 @@ pub(super) fn add(drawing: &mut Drawing<'_>, sources: &[ComparedSensor]) {
         if drawing.look.blink && !source.is_reference {
             continue;
         }
-        let Ok(colors) = drawing.scene.patch_colors(source.kind, &source.name) else { continue };
+        let Ok(colors) = drawing.scene.drawn_patch_colors(source.kind, &source.name) else { continue };
         let comparable = drawing.scene.is_comparable(source.kind, &source.name);
         if !drawing.sketch && !source.is_reference && comparable {
             add_tails(drawing, source, &names, &colors, &reference);
@@ -215,7 +216,7 @@ pub fn blackbody_distance(scene: &Scene<'_>, source: &SensorId, kelvin: f64) -> 
     let xy = compare::difference(Metric::XY, &reference, &point);
     let uv = compare::difference(Metric::UV_PRIME, &reference, &point);
     Some(match (xy, uv) {
-        (Ok(xy), Ok(uv)) => format!("Δxy {}   Δu′v′ {}", number(round4(xy)), number(round4(uv))),
+        (Ok(xy), Ok(uv)) => format!("Δxy {}   Δu′v′ {}", fixed(xy, 4), fixed(uv, 4)),
         (Err(why), _) | (_, Err(why)) => why.to_string(),
     })
 }
@@ -234,7 +235,8 @@ fn describe_patch(scene: &Scene<'_>, source: &SensorId, patch: &str) -> Vec<Stri
     }
     match scene.differences(source.kind, &source.name).ok().and_then(|all| all.get(index).copied()) {
         Some(Ok(difference)) => {
-            lines.push(format!("{} to the reference: {}", scene.difference_name(), number(round4(difference))));
+            let number = fixed(difference, scene.document.difference.decimals);
+            lines.push(format!("{} to the reference: {number}", scene.difference_name()));
         }
         Some(Err(why)) => lines.push(why.to_string()),
         None => {}

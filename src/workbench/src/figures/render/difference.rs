@@ -60,7 +60,7 @@ impl Scale {
 }
 
 /// The height of a scale in a figure.
-pub(super) const SCALE_HEIGHT: f64 = 38.0;
+pub(super) const SCALE_HEIGHT: f64 = 54.0;
 
 /// The scale in a figure: the ramp with its values, from an upper left corner on.
 pub(super) fn scale(scale: Scale, name: &str, [x, y]: [f64; 2], width: f64, ink: Ink) -> Vec<Mark> {
@@ -75,10 +75,10 @@ pub(super) fn scale(scale: Scale, name: &str, [x, y]: [f64; 2], width: f64, ink:
     let shape = Shape::Image { min: [left, y + 16.0], max: [right, y + 4.0], image };
     let mut marks = vec![Mark::new(PickIndex::NONE, "scale", shape)];
     for (share, value) in scale.ticks() {
-        let words = if share < 1.0 { value } else { format!("{name} {value}") };
         let at = [left + f64::from(share) * (right - left), y + 26.0];
-        marks.push(Mark::text(words, at, Anchor::CENTER, TextSize::Body, ink));
+        marks.push(Mark::text(value, at, Anchor::CENTER, TextSize::Small, ink));
     }
+    marks.push(Mark::text(name, [0.5 * (left + right), y + 42.0], Anchor::CENTER, TextSize::Small, ink));
     marks
 }
 

@@ -14,6 +14,8 @@ use crate::render_service::RenderedFrame;
 /// Meaning of the numbers, for hints.
 pub const MEANING: &str = "Facing the light: the flat material, or garment, under this light, as a patch. Median and 95 %: over the lit \
     samples whose L* in the reference is above 20.";
+/// Meaning of a single number, for captions.
+pub const SHORT_MEANING: &str = "Differences: of the flat material facing the light.";
 /// Meaning of the numbers of a spectral image.
 pub const IMAGE_MEANING: &str = "Mean, median, 95 % and maximum over all pixels with a value in every band.";
 
@@ -52,6 +54,10 @@ impl Measure {
 
     pub const fn meaning(self) -> &'static str {
         if self.of_image { IMAGE_MEANING } else { MEANING }
+    }
+
+    pub const fn short_meaning(self) -> &'static str {
+        if self.of_image { "Differences: mean over all pixels." } else { SHORT_MEANING }
     }
 
     pub const fn name(self) -> &'static str {

@@ -2,12 +2,12 @@
 
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
 use chromascope_core::spectral::{SpectralDistribution, StatedUncertainty};
-use chromascope_figure::{Dash, Ink, InkRole, Mark, Shape, Tag};
+use chromascope_figure::{Dash, Ink, InkRole, LegendEntry, Mark, Shape, Stroke, Tag};
 
 use super::Built;
 use crate::document::{SetKind, Subset};
 use crate::figures::band;
-use crate::figures::chromaticity::id;
+use crate::figures::chromaticity::{self, id};
 use crate::figures::data_set::{Name, channel_symbol};
 use crate::plot_item::PlotItem;
 use crate::scene::{ComparedSensor, Scene};
@@ -66,14 +66,15 @@ pub(super) fn patches(scene: &Scene<'_>, built: &mut Built) -> Option<Content> {
         let color = colors.get(index).map(|color| color.srgb.bytes);
         let ink = color.map_or(Ink::new(InkRole::Text), Ink::rgb);
         top = patch.grid.values().iter().copied().fold(top, f64::max);
-        let casing = Ink::new(InkRole::Weak).faded(color.map_or(0.0, casing));
-        let cased = |mark: Mark| match mark.stroke {
-            Some(stroke) if stroke.dash == Dash::Solid => mark.with_halo(casing),
+        let casing = color.and_then(casing).map(|alpha| Ink::new(InkRole::Weak).faded(alpha));
+        let cased = |mark: Mark| match (mark.stroke, casing) {
+            (Some(stroke), Some(casing)) if stroke.dash == Dash::Solid => mark.with_halo(casing),
             _ => mark,
         };
+        let width = if patches.patches().len() <= NAMED { 1.5 } else { 1.0 };
         let band = stated.as_ref().and_then(|of| banded(built, &patch.name, &patch.measured, (1.0, ink), (of, index)));
         marks.splice(0..0, band);
-        marks.extend(curve(tag, &patch.name, &patch.measured, 1.0, ink, 1.5, true).into_iter().map(cased));
+        marks.extend(curve(tag, &patch.name, &patch.measured, 1.0, ink, width, true).into_iter().map(cased));
         if patches.patches().len() <= NAMED {
             let points = along(&patch.measured, 1.0);
             names.push(Name { text: patch.name.clone(), ink: InkRole::Text.into(), points });
@@ -87,11 +88,11 @@ pub(super) fn patches(scene: &Scene<'_>, built: &mut Built) -> Option<Content> {
     Some(Content { quantity: "reflectance", note, marks, names, common: Vec::new(), range, weight: 1.3 })
 }
 
-/// Opacity of the casing that separates a patch's line from any ground: strong for colors that are nearly a ground's own.
-fn casing(rgb: [u8; 3]) -> f32 {
+/// Opacity of the casing that separates a patch's line from a ground of nearly its own color.
+fn casing(rgb: [u8; 3]) -> Option<f32> {
     let lightest = rgb.into_iter().min().unwrap_or(0);
     let darkest = rgb.into_iter().max().unwrap_or(0);
-    if lightest > 170 || darkest < 70 { 0.9 } else { 0.35 }
+    (lightest > 170 || darkest < 70).then_some(0.4)
 }
 
 /// Points of a curve at which a name may stand: near its peak first.
@@ -117,9 +118,10 @@ pub(super) fn sensitivities(
 ) -> Content {
     let (mut marks, mut signs, mut names) = (Vec::new(), Vec::new(), Vec::new());
     let mut low = -0.04_f64;
-    for (source, is_ghost) in
-        ghost.map(|ghost| (ghost, true)).into_iter().chain(sources.iter().rev().map(|s| (s, false)))
-    {
+    // The reference's thick lines lie below the others.
+    let (references, others): (Vec<_>, Vec<_>) = sources.iter().rev().partition(|source| source.is_reference);
+    let drawn = references.into_iter().chain(others).map(|source| (source, false));
+    for (source, is_ghost) in ghost.map(|ghost| (ghost, true)).into_iter().chain(drawn) {
         let Some(sensor) = built.known(scene.sensor(source.kind, &source.name)) else { continue };
         let tag = built.things.tag(PlotItem::Sensor(id(source)));
         let stated = scene.stated_of_sensor(source.kind, &source.name, &sensor);
@@ -136,7 +138,8 @@ pub(super) fn sensitivities(
             let width = if source.is_reference { 3.0 } else { source.width };
             let band = |of| banded(built, &name, spectrum, (peak, source.role.into()), (of, c));
             marks.splice(0..0, stated.as_ref().and_then(band));
-            marks.extend(curve(tag, &name, spectrum, peak, source.role.into(), width, false));
+            let lines = curve(tag, &name, spectrum, peak, source.role.into(), width, false);
+            marks.extend(lines.into_iter().map(|line| line.with_dash(dash(source))));
             names.push(Name {
                 text: channel_symbol(channel),
                 ink: source.role.into(),
@@ -147,8 +150,7 @@ pub(super) fn sensitivities(
             }
         }
     }
-    // The reference's names are placed first.
-    names.reverse();
+    names.sort_by_key(|name| name.ink.role != InkRole::Reference);
     let common = common(&names);
     marks.extend(signs);
     Content {
@@ -160,6 +162,21 @@ pub(super) fn sensitivities(
         range: [low.max(-1.0), 1.1],
         weight: 1.0,
     }
+}
+
+/// Dashes of every second camera, so that neighbors in the list are told apart without color.
+fn dash(source: &ComparedSensor) -> Dash {
+    match source.role {
+        InkRole::Sensor(slot) if slot % 2 == 1 => Dash::Dashed,
+        _ => Dash::Solid,
+    }
+}
+
+/// A sensor's entry of the legend.
+pub(super) fn key(source: &ComparedSensor) -> LegendEntry {
+    let reference = if source.is_reference { " (reference)" } else { "" };
+    let key = chromaticity::key(source, format!("{}{reference}", source.label));
+    LegendEntry { stroke: key.stroke.map(|stroke| Stroke { dash: dash(source), ..stroke }), ..key }
 }
 
 /// A name for all of one text, at their points from the median outward; the reference's keep their ink.

@@ -1,12 +1,13 @@
 //! Arrangement of swatches in rows or charts.
 
 use chromascope_core::query::PatchColor;
-use chromascope_figure::{Anchor, Ink, InkRole, Mark, Shape, Tag, TextSize, text_width, wrapped};
+use chromascope_figure::{Anchor, Ink, InkRole, Mark, Rect, Shape, Tag, TextSize, clip_segment, text_width, wrapped};
 
 use super::{Row, short};
-use crate::document::SetKind;
+use crate::document::{Exaggeration, SetKind};
 use crate::figures::chromaticity::id;
 use crate::figures::look::{FigureLook, SwatchStyle};
+use crate::names::{fitted, shortest};
 use crate::plot_item::{PickIndex, PlotItem};
 use crate::scene::{ComparedSensor, Scene};
 
@@ -22,6 +23,12 @@ const BESIDE: f64 = 52.0;
 const LEAST_ROW: f64 = 16.0;
 /// The least height of colors above a number in a chart.
 const LEAST_COLOR: f64 = 13.0;
+/// The least length of a bar beside its number in a chart.
+const LEAST_TRACK: f64 = 8.0;
+/// Share of the bar from which on a chart has a difference's number: others are read by pointing at them.
+const NUMBERED: f64 = 0.4;
+/// Distance of the lines over colors that a screen cannot show.
+const HATCH: f64 = 5.0;
 /// The height of a chart's head.
 const HEAD: f64 = 20.0;
 /// The least width of a column with a name.
@@ -31,9 +38,13 @@ pub(super) struct Board<'a> {
     scene: &'a Scene<'a>,
     look: &'a FigureLook,
     pub(super) names: Vec<String>,
+    /// Labels of the sensors, which are shortened by what distinguishes them.
+    labels: Vec<String>,
     reference: Vec<PatchColor>,
     pub(super) marks: Vec<Mark>,
     pub(super) things: PickIndex,
+    /// Width of the widest number beside a bar in a chart, with the space before it.
+    widest: f64,
 }
 
 /// Difference of a swatch as it is drawn below the colors.
@@ -45,6 +56,8 @@ enum Note {
     Above,
     /// The number at the right of the bar.
     Beside,
+    /// The same in a chart, where colors come first.
+    Close,
 }
 
 impl Note {
@@ -54,6 +67,7 @@ impl Note {
             Self::Bar => BAR + 1.0,
             Self::Above => NUMBER + BAR + 1.0,
             Self::Beside => NUMBER + 2.0,
+            Self::Close => NUMBER,
         }
     }
 }
@@ -61,11 +75,12 @@ impl Note {
 impl<'a> Board<'a> {
     pub(super) fn new(scene: &'a Scene<'a>, look: &'a FigureLook, names: Vec<String>) -> Self {
         let reference = scene.patch_colors(SetKind::Observer, &scene.document.reference).unwrap_or_default();
-        Self { scene, look, names, reference, marks: Vec::new(), things: PickIndex::default() }
+        let labels = scene.visible_sources().into_iter().map(|source| source.label).collect();
+        Self { scene, look, names, labels, reference, marks: Vec::new(), things: PickIndex::default(), widest: 0.0 }
     }
 
     /// What fits below a swatch of a width.
-    fn note(&self, rows: &[Row], width: f64) -> Note {
+    fn note(&self, rows: &[&Row], width: f64) -> Note {
         if self.look.without_bars {
             return Note::None;
         }
@@ -77,7 +92,7 @@ impl<'a> Board<'a> {
         }
     }
 
-    fn widest_number(&self, rows: &[Row]) -> f64 {
+    fn widest_number(&self, rows: &[&Row]) -> f64 {
         let metric = self.scene.document.difference;
         let numbers = rows.iter().flat_map(|row| row.colors.iter().flatten()).filter_map(|(_, difference)| *difference);
         numbers.map(|d| text_width(&short(metric, d), TextSize::Small)).fold(0.0, f64::max)
@@ -95,7 +110,7 @@ impl<'a> Board<'a> {
         let width = (room / columns as f64 - GAP).max(6.0);
         let heads: Vec<Vec<String>> = self.names.iter().map(|name| column_head(name, width)).collect();
         let title = 3.0 + 14.0 * heads.iter().map(Vec::len).max().unwrap_or(1) as f64;
-        let note = self.note(rows, width);
+        let note = self.note(&rows.iter().collect::<Vec<_>>(), width);
         let available = (size[1] - MARGIN) / blocks as f64 - title - MARGIN;
         let least = LEAST_ROW + note.height() + GAP;
         // The reference's colors have no differences below.
@@ -113,15 +128,15 @@ impl<'a> Board<'a> {
             for row in rows {
                 let (note, pitch) =
                     if row.source.is_reference { (Note::None, pitch - note.height()) } else { (note, pitch) };
-                self.row_head(&row.source, [MARGIN, y + (pitch - GAP - note.height()) / 2.0], head);
+                let label = if row.source.is_reference { "Reference" } else { &row.source.label };
+                self.row_head(&row.source, label, [MARGIN, y + (pitch - GAP - note.height()) / 2.0], head);
                 match &row.colors {
                     Err(why) => self.text(PickIndex::NONE, why, [MARGIN + head, y + pitch / 2.0], Anchor::LEFT),
                     Ok(colors) => {
-                        for (column, (color, difference)) in
-                            colors.iter().enumerate().filter(|(i, _)| shown.contains(i))
-                        {
+                        let drawn = colors.iter().zip(&row.drawn).enumerate();
+                        for (column, ((_, difference), color)) in drawn.filter(|(i, _)| shown.contains(i)) {
                             let area = [[left(column), y], [left(column) + width, y + pitch - GAP]];
-                            self.swatch(&row.source, column, (color, *difference), area, note);
+                            self.swatch(&row.source, column, (color, *difference), area, (note, false));
                         }
                     }
                 }
@@ -140,29 +155,28 @@ impl<'a> Board<'a> {
         }
     }
 
-    /// A chart for each sensor, wrapping to the width. Returns the height.
+    /// A chart for each sensor, wrapping to the width. Returns the height. The reference has one only where the others do not
+    /// show its colors in every swatch.
     pub(super) fn charts(&mut self, rows: &[Row], size: [f64; 2]) -> f64 {
+        let is_split = self.look.swatch_style != SwatchStyle::Whole && rows.len() > 1;
+        let rows: Vec<&Row> = rows.iter().filter(|row| !(is_split && row.source.is_reference)).collect();
         let columns = chart_columns(self.names.len());
         let lines = self.names.len().div_ceil(columns).max(1);
         let least = match (self.look.without_bars, columns * lines) {
             (_, count) if count > 60 => [8.0; 2],
-            (false, _) => [self.widest_number(rows).max(12.0), Note::Above.height() + LEAST_COLOR],
+            (false, _) => [self.widest_number(&rows) + 4.0 + LEAST_TRACK, Note::Close.height() + LEAST_COLOR],
             (true, _) => [12.0; 2],
         };
         let (across, cell) = chart_cell(rows.len(), columns, lines, size, least);
-        let note = match self.note(rows, cell[0]) {
-            // Colors come first: of a chart with many low ones, there are no numbers.
-            Note::Above | Note::Beside if cell[1] < Note::Above.height() + LEAST_COLOR => Note::Bar,
-            note => note,
-        };
+        let note = self.chart_note(&rows, cell);
+        self.widest = self.widest_number(&rows) + 4.0;
         let chart = [columns as f64 * (cell[0] + GAP / 2.0), lines as f64 * (cell[1] + GAP / 2.0) + HEAD];
-        // Names have the width that colors leave, within reason.
-        let closest = chart[0] + 2.0 * MARGIN;
-        let pitch = (size[0] / across as f64).clamp(closest, closest.max(200.0));
-        for (index, row) in rows.iter().enumerate() {
+        let pitch = (size[0] / across as f64).max(chart[0] + 2.0 * MARGIN);
+        let short = shortest(rows.iter().map(|row| row.source.label.as_str()));
+        for (index, (row, short)) in rows.iter().zip(&short).enumerate() {
             let x = MARGIN + (index % across) as f64 * pitch;
             let y = MARGIN + (index / across) as f64 * (chart[1] + MARGIN);
-            self.row_head(&row.source, [x, y + 8.0], pitch - MARGIN);
+            self.chart_head(row, short, [x, y + 8.0], (pitch - 2.0 * MARGIN).min(chart[0].max(200.0)));
             match &row.colors {
                 Err(why) => {
                     for (line, words) in wrapped(why, TextSize::Body, pitch - MARGIN).iter().enumerate() {
@@ -170,11 +184,11 @@ impl<'a> Board<'a> {
                     }
                 }
                 Ok(colors) => {
-                    for (i, (color, difference)) in colors.iter().enumerate() {
+                    for (i, ((_, difference), color)) in colors.iter().zip(&row.drawn).enumerate() {
                         let left = x + (i % columns) as f64 * (cell[0] + GAP / 2.0);
                         let up = y + HEAD - 2.0 + (i / columns) as f64 * (cell[1] + GAP / 2.0);
                         let area = [[left, up], [left + cell[0], up + cell[1]]];
-                        self.swatch(&row.source, i, (color, *difference), area, note);
+                        self.swatch(&row.source, i, (color, *difference), area, (note, true));
                     }
                 }
             }
@@ -182,15 +196,44 @@ impl<'a> Board<'a> {
         MARGIN + rows.len().div_ceil(across) as f64 * (chart[1] + MARGIN)
     }
 
+    /// What stands below the colors of a chart: a bar with its number beside it, where that leaves enough of both.
+    fn chart_note(&self, rows: &[&Row], cell: [f64; 2]) -> Note {
+        let widest = self.widest_number(rows);
+        match cell {
+            _ if self.look.without_bars => Note::None,
+            [_, height] if height < Note::Close.height() + LEAST_COLOR => Note::Bar,
+            [width, _] if width >= widest + 4.0 + LEAST_TRACK => Note::Close,
+            [width, height] if width >= widest && height >= Note::Above.height() + LEAST_COLOR => Note::Above,
+            _ => Note::Bar,
+        }
+    }
+
+    /// A chart's marker and name, and at its right end its largest difference, which stands for that patch.
+    fn chart_head(&mut self, row: &Row, short: &str, at: [f64; 2], width: f64) {
+        let name = if row.source.is_reference { "Reference" } else { &row.source.label };
+        let Some((worst, patch)) = row.worst(&self.names) else { return self.row_head(&row.source, name, at, width) };
+        let number = super::short(self.scene.document.difference, worst);
+        let item = PlotItem::Patch { source: Some(id(&row.source)), patch: patch.clone() };
+        let wide = |words: &str| text_width(words, TextSize::Small) + 8.0;
+        let named = |name: &str| 18.0 + text_width(name, TextSize::Body);
+        let all = [format!("worst {number}, {patch}"), format!("{number} {patch}"), number];
+        let pairs = all.iter().flat_map(|words| [name, short].map(|name| (name, words)));
+        let (name, words) =
+            pairs.into_iter().find(|(name, words)| named(name) + wide(words) <= width).unwrap_or((short, &all[2]));
+        self.row_head(&row.source, name, at, width - wide(words));
+        let tag = self.things.tag(item);
+        self.marks.push(Mark { tag, ..small(words, [at[0] + width, at[1]], Anchor::RIGHT) });
+    }
+
     /// A sensor's marker and label, no wider than there is room.
-    fn row_head(&mut self, source: &ComparedSensor, at: [f64; 2], width: f64) {
+    fn row_head(&mut self, source: &ComparedSensor, label: &str, at: [f64; 2], width: f64) {
         let tag = self.things.tag(PlotItem::Sensor(id(source)));
         let shape = Shape::Points { points: vec![[at[0] + 7.0, at[1]]], marker: source.marker, radius: 5.0 };
         let mark = Mark::new(tag, source.label.clone(), shape).with_stroke(InkRole::OnSurround, 1.5);
         let filled = source.marker.has_inside();
         self.marks.push(if filled { mark.with_fill(InkRole::OnSurround) } else { mark });
-        let label = if source.is_reference { "Reference" } else { &source.label };
-        self.text(tag, &elided(label, width - 18.0), [at[0] + 18.0, at[1]], Anchor::LEFT);
+        let fits = |form: &str| text_width(form, TextSize::Body) <= width - 18.0;
+        self.text(tag, &fitted(label, &self.labels, fits), [at[0] + 18.0, at[1]], Anchor::LEFT);
     }
 
     /// One swatch: the sensor's color, the reference's part, the notch, a frame that is seen when it is chosen, the
@@ -201,7 +244,7 @@ impl<'a> Board<'a> {
         index: usize,
         (color, difference): (&PatchColor, Option<f64>),
         [[x0, y0], [x1, y1]]: [[f64; 2]; 2],
-        note: Note,
+        (note, is_chart): (Note, bool),
     ) {
         let name = self.names.get(index).cloned().unwrap_or_default();
         let tag = self.things.tag(PlotItem::Patch { source: Some(id(source)), patch: name.clone() });
@@ -221,7 +264,11 @@ impl<'a> Board<'a> {
                 SwatchStyle::Whole => {}
             }
         }
-        if shown.srgb.clipped {
+        let exaggerated = self.scene.document.exaggeration != Exaggeration::One && !source.is_reference;
+        if shown.srgb.clipped && exaggerated && !self.look.blink {
+            let left = if self.look.swatch_style == SwatchStyle::Split { 0.5 * (x0 + x1) } else { x0 };
+            self.hatch([[left, y0], [x1, bottom]]);
+        } else if shown.srgb.clipped {
             let notch = (0.3 * (bottom - y0)).min(9.0);
             let points = vec![[x1 - notch, y0], [x1, y0], [x1, y0 + notch]];
             let mark = Mark::new(PickIndex::NONE, "clipped", Shape::Polygon { points });
@@ -229,27 +276,51 @@ impl<'a> Board<'a> {
         }
         self.marks.push(Mark::new(tag, title, Shape::Rect { min: [x0, y0], max: [x1, bottom] }));
         if let Some(difference) = difference.filter(|_| bottom < y1) {
-            self.difference(difference, [[x0, bottom], [x1, y1]], note);
+            self.difference(difference, [[x0, bottom], [x1, y1]], note, is_chart);
         }
     }
 
-    /// The bar of a difference on a hairline of full length, with its number.
-    fn difference(&mut self, difference: f64, [[x0, y0], [x1, y1]]: [[f64; 2]; 2], note: Note) {
+    /// The bar of a difference on a hairline of full length, signed where it is longer, with its number.
+    fn difference(&mut self, difference: f64, [[x0, y0], [x1, y1]]: [[f64; 2]; 2], note: Note, is_chart: bool) {
         let metric = self.scene.document.difference;
         let words = short(metric, difference);
         let share = (difference / metric.full_scale).clamp(0.0, 1.0);
-        let right = if note == Note::Beside { x1 - text_width(&words, TextSize::Small).max(24.0) - 4.0 } else { x1 };
-        let middle = if note == Note::Beside { 0.5 * (y0 + y1) + 0.5 } else { y1 - 0.5 * BAR };
+        let beside = if is_chart { self.widest } else { text_width(&words, TextSize::Small).max(24.0) + 4.0 };
+        let is_beside = matches!(note, Note::Beside | Note::Close);
+        let right = if is_beside { x1 - beside } else { x1 };
+        let middle = if is_beside { 0.5 * (y0 + y1) + 0.5 } else { y1 - 0.5 * BAR };
         let track = Shape::Segments { segments: vec![[[x0, middle], [right, middle]]] };
         let faint = Ink::new(InkRole::OnSurround).faded(0.35);
         self.marks.push(Mark::new(PickIndex::NONE, "full scale", track).with_stroke(faint, 1.0));
         let bar = Shape::Rect { min: [x0, middle - 0.5 * BAR], max: [x0 + share * (right - x0), middle + 0.5 * BAR] };
         self.marks.push(Mark::new(PickIndex::NONE, "difference", bar).with_fill(InkRole::OnSurround));
+        if difference > metric.full_scale {
+            let points = vec![[right - 3.0, middle - 3.5], [right + 1.0, middle], [right - 3.0, middle + 3.5]];
+            let sign = Mark::new(PickIndex::NONE, "beyond the scale", Shape::Polygon { points });
+            self.marks.push(sign.with_fill(InkRole::OnSurround));
+        }
+        if is_chart && share < NUMBERED {
+            return;
+        }
         match note {
-            Note::Beside => self.marks.push(small(&words, [x1, middle], Anchor::RIGHT)),
+            Note::Beside | Note::Close => self.marks.push(small(&words, [x1, middle], Anchor::RIGHT)),
             Note::Above => self.marks.push(small(&words, [x0, y0 + 0.5 * NUMBER], Anchor::LEFT)),
             Note::Bar | Note::None => {}
         }
+    }
+
+    /// Lines over a color that is exaggerated beyond what a screen shows.
+    fn hatch(&mut self, [min, max]: [[f64; 2]; 2]) {
+        let [width, height] = [max[0] - min[0], max[1] - min[1]];
+        let count = ((width + height) / HATCH) as u32;
+        let area = Rect { min, max };
+        let line = |index| {
+            let x = min[0] - height + HATCH * (f64::from(index) + 0.5);
+            clip_segment(area, [[x, max[1]], [x + height, min[1]]])
+        };
+        let segments = (0..=count).filter_map(line).collect();
+        let mark = Mark::new(PickIndex::NONE, "clipped", Shape::Segments { segments });
+        self.marks.push(mark.with_stroke(InkRole::Surround, 1.2));
     }
 
     fn area(&mut self, name: &str, [min, max]: [[f64; 2]; 2], color: &PatchColor) {
@@ -274,22 +345,7 @@ fn column_head(name: &str, width: f64) -> Vec<String> {
         let rest = lines.split_off(1).join(" ");
         lines.push(rest);
     }
-    lines.iter().map(|line| elided(line, width)).collect()
-}
-
-/// A label cut to the available width; the pointer shows it in full.
-fn elided(label: &str, width: f64) -> String {
-    if text_width(label, TextSize::Body) <= width {
-        return label.to_owned();
-    }
-    let mut short: String = label.to_owned();
-    while short.pop().is_some() {
-        let shown = format!("{}…", short.trim_end());
-        if text_width(&shown, TextSize::Body) <= width {
-            return shown;
-        }
-    }
-    String::new()
+    lines.iter().map(|line| fitted(line, &[], |form| text_width(form, TextSize::Body) <= width)).collect()
 }
 
 /// Six for a ColorChecker, else about half again as wide as high.
@@ -297,14 +353,15 @@ fn chart_columns(count: usize) -> usize {
     if count == 24 { 6 } else { ((count as f64 * 1.5).sqrt().ceil() as usize).max(1) }
 }
 
-/// Number of charts side by side, and the size of a swatch: the largest that fits, else the least high, and the charts scroll.
+/// Number of charts side by side, and the size of a swatch with its note: the largest that fits and fills the area, no wider than
+/// twice its height, else the least high, and the charts scroll.
 fn chart_cell(charts: usize, columns: usize, lines: usize, size: [f64; 2], least: [f64; 2]) -> (usize, [f64; 2]) {
     let mut best = (1, [0.0_f64, 0.0_f64]);
     for across in 1..=charts.max(1) {
         let down = charts.div_ceil(across).max(1);
         let width = (size[0] - MARGIN * (2.0 * across as f64)) / across as f64 / columns as f64 - GAP / 2.0;
         let height = ((size[1] - MARGIN * (1.0 + down as f64)) / down as f64 - HEAD) / lines as f64 - GAP / 2.0;
-        let cell = [width.min(height * 1.6).min(56.0), height.min((width + 6.0).max(least[1])).min(42.0)];
+        let cell = [width.min(2.0 * height), height.min((1.2 * width + 8.0).max(least[1]))];
         let fits = cell[0] >= least[0] && cell[1] >= least[1];
         if fits && cell[0].min(cell[1]) > best.1[0].min(best.1[1]) {
             best = (across, cell);

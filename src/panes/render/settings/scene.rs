@@ -110,7 +110,7 @@ fn material(ui: &mut Ui, part: Part, context: &mut PaneContext<'_>) {
     let (what, hint, now) = match part {
         Part::Skin => ("Material", "Reflectance of the surface", settings.material.clone()),
         Part::Garment => {
-            let hint = "Reflectance of the head's garment; its surface is that of the rest. Figures 8 and 9 have none.";
+            let hint = "Reflectance of the head's garment, which scatters evenly. Figures 8 and 9 have none.";
             ("Garment", hint, settings.garment.clone().unwrap_or_else(|| BARE.to_owned()))
         }
     };

@@ -1,23 +1,21 @@
-//! All data sets in folding groups; the menu of a set: its source, its reading, its removal, and the forms in which it can be saved.
+//! Cameras and observers in folding groups, to be ticked.
 
 use std::borrow::Cow;
 
 use chromascope_core::query::Shared;
 use egui::{Key, Modifiers, Popup, Rect, Response, ScrollArea, Sense, TextStyle, Ui, Vec2};
 
-use crate::action::{Action, CompareAction, ImportedAction, SceneAction};
 use crate::catalog::{Entry, names};
-use crate::command::Command;
+use crate::document::SetKind;
 use crate::document::imported::ImportedSet;
-use crate::document::{Light, SetKind};
-use crate::export::spectra::{Form, fits};
-use crate::format::{capitalized, sentence};
+use crate::format::capitalized;
 use crate::panes::context::PaneContext;
+use crate::panes::widgets::sets::{choose, menu};
 use crate::panes::widgets::{focus_rim, labeled, lines};
 use crate::plot_item::PlotItem;
 use crate::theme::{ROW, UNIT};
-use crate::view::import::ImportItem;
-use crate::workspaces::PaneKind;
+
+const SENSORS: [SetKind; 2] = [SetKind::Camera, SetKind::Observer];
 
 pub(super) const SCROLL_BAR: f32 = 10.0;
 
@@ -56,14 +54,14 @@ pub(super) fn rows<'a>(context: &PaneContext<'a>) -> Vec<Row<'a>> {
         own.chain(catalog.of_kind(kind).map(Row::BuiltIn))
     };
     let groups: Vec<(SetKind, Vec<Row<'a>>)> = if searching {
-        let all = SetKind::ALL.into_iter().flat_map(|kind| of_kind(kind).filter_map(|row| Some((row.entry()?, row))));
+        let all = SENSORS.into_iter().flat_map(|kind| of_kind(kind).filter_map(|row| Some((row.entry()?, row))));
         let found = names::ranked(search, all, |(entry, _)| (entry.kind, entry.glossed_name(), entry.gloss()));
         found.into_iter().map(|(kind, found)| (kind, found.into_iter().map(|(_, row)| row).collect())).collect()
     } else {
-        SetKind::ALL.into_iter().map(|kind| (kind, of_kind(kind).collect())).collect()
+        SENSORS.into_iter().map(|kind| (kind, of_kind(kind).collect())).collect()
     };
     let mut rows = Vec::new();
-    for (kind, found) in groups.into_iter().filter(|(kind, found)| !found.is_empty() || *kind != SetKind::Unsorted) {
+    for (kind, found) in groups {
         let open = searching || !context.view.saved.folded.contains(kind.key());
         rows.push(Row::Group { kind, count: found.len(), open });
         if open {
@@ -131,26 +129,8 @@ fn state(entry: &Entry, context: &PaneContext<'_>) -> (bool, bool) {
     (document.uses(entry.kind, &entry.name), !is_reference)
 }
 
-/// Puts a set to use, or removes it from the comparison.
-pub(super) fn choose(entry: &Entry, on: bool, context: &mut PaneContext<'_>) {
-    let name = entry.name.clone();
-    if entry.kind == SetKind::Unsorted {
-        // Its kind must be chosen first, in Import.
-        context.push(Command::ShowImport(ImportItem::Set(name), None));
-        return;
-    }
-    context.push(match entry.kind {
-        SetKind::Camera | SetKind::Observer if on => Action::Compare(CompareAction::Add(entry.kind, name)),
-        SetKind::Camera | SetKind::Observer => Action::Compare(CompareAction::Remove(entry.kind, name)),
-        SetKind::Chart | SetKind::Material => Action::Scene(SceneAction::SetChart(name)),
-        SetKind::Filter => Action::Scene(SceneAction::SetFilter(name, on)),
-        SetKind::Illuminant | SetKind::Unsorted => Action::Scene(SceneAction::SetLight(Light::Set(name))),
-    });
-}
-
 fn set(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
     let (on, enabled) = state(entry, context);
-    let ticks = matches!(entry.kind, SetKind::Camera | SetKind::Observer | SetKind::Filter);
     let (rect, _) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW), Sense::hover());
     let id = ui.scope_id().with(("set", entry.kind, &entry.name, entry.is_own()));
     let mut row = rect.with_min_x(rect.left() + 2.0 * UNIT);
@@ -158,11 +138,10 @@ fn set(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
         row.max.x -= lines::DOTS + UNIT + SCROLL_BAR;
     }
     let response = ui.interact(row, id, Sense::click());
-    let role = if ticks { egui::Role::CheckBox } else { egui::Role::RadioButton };
-    response.widget_info(|| egui::WidgetInfo::selected(role, enabled, on, &entry.name));
+    response.widget_info(|| egui::WidgetInfo::selected(egui::Role::CheckBox, enabled, on, &entry.name));
     rim(ui, row, &response, context);
     let mark = egui::pos2(row.left() + 11.0, row.center().y);
-    draw_mark(ui, mark, ticks, on, enabled, context);
+    draw_mark(ui, mark, on, enabled, context);
     let mut words = row.with_min_x(row.left() + 6.0 * UNIT);
     let place = egui::pos2(rect.right() - SCROLL_BAR - lines::DOTS, row.top());
     let shown = menu_of(ui, Rect::from_min_size(place, Vec2::new(lines::DOTS, ROW)), &response, entry, context);
@@ -176,9 +155,8 @@ fn set(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
         words.max.x -= lines::right_aligned(ui, words, "digitized", TextStyle::Small, context.theme.weak) + UNIT;
     }
     let color = if enabled { context.theme.text } else { context.theme.weak };
-    let shown = if entry.kind == SetKind::Illuminant && entry.name == "E" { "E, equal energy" } else { &entry.name };
-    let cut = lines::name(ui, words, shown, TextStyle::Body, color);
-    if enabled && response.clicked() && (ticks || !on) {
+    let cut = lines::name(ui, words, &entry.name, TextStyle::Body, color);
+    if enabled && response.clicked() {
         choose(entry, !on, context);
     }
     // Source, terms and curve stand in the inspector, a sensor's locus in the diagram, where they cover nothing.
@@ -198,25 +176,17 @@ fn set(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
     }
 }
 
-/// A box with a tick, or a ring with a point.
-fn draw_mark(ui: &Ui, at: egui::Pos2, ticks: bool, on: bool, enabled: bool, context: &PaneContext<'_>) {
+/// A box with a tick.
+fn draw_mark(ui: &Ui, at: egui::Pos2, on: bool, enabled: bool, context: &PaneContext<'_>) {
     let theme = context.theme;
-    let painter = ui.painter();
-    let color = if enabled { theme.text } else { theme.weak };
+    let square = Rect::from_center_size(at, Vec2::splat(14.0));
     let rim = egui::Stroke::new(1.0, theme.hover);
-    if ticks {
-        let square = Rect::from_center_size(at, Vec2::splat(14.0));
-        painter.rect(square, 3.0, theme.control, rim, egui::StrokeKind::Inside);
-        if on {
-            let corner = |x: f32, y: f32| at + Vec2::new(x, y);
-            let tick = vec![corner(-3.5, 0.0), corner(-1.0, 3.0), corner(3.5, -3.5)];
-            painter.add(egui::Shape::line(tick, egui::Stroke::new(1.8, color)));
-        }
-    } else {
-        painter.circle(at, 7.0, theme.control, rim);
-        if on {
-            painter.circle_filled(at, 3.5, color);
-        }
+    ui.painter().rect(square, 3.0, theme.control, rim, egui::StrokeKind::Inside);
+    if on {
+        let corner = |x: f32, y: f32| at + Vec2::new(x, y);
+        let tick = vec![corner(-3.5, 0.0), corner(-1.0, 3.0), corner(3.5, -3.5)];
+        let color = if enabled { theme.text } else { theme.weak };
+        ui.painter().add(egui::Shape::line(tick, egui::Stroke::new(1.8, color)));
     }
 }
 
@@ -251,49 +221,4 @@ fn menu_of(ui: &Ui, rect: Rect, row: &Response, entry: &Entry, context: &mut Pan
         .show(|ui| menu(ui, entry, context));
     row.context_menu(|ui| menu(ui, entry, context));
     shown
-}
-
-fn menu(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
-    if ui.button("Source").on_hover_text("Source, terms and curve in the Inspector").clicked() {
-        context.view.selected = Some(PlotItem::of_set(entry.kind, &entry.name));
-        show_inspector(context);
-        ui.close();
-    }
-    if entry.is_own() {
-        context.item(ui, "Reading…", "", Command::ShowImport(ImportItem::Set(entry.name.clone()), None));
-    }
-    let hint = "Tab-separated text, for a spreadsheet or for Paste data";
-    context.item(ui, "Copy curves", hint, Command::CopySet(entry.kind, entry.name.clone()));
-    save_as(ui, entry.kind, &entry.name, context);
-    if entry.is_own() {
-        context.item(ui, "Remove", "", Action::Imported(ImportedAction::Remove(entry.name.clone())));
-    }
-}
-
-/// Brings the inspector on, if the workspace does not show it.
-pub(super) fn show_inspector(context: &mut PaneContext<'_>) {
-    let saved = &context.view.saved;
-    if !saved.layout.shows(saved.workspace, PaneKind::INSPECTOR) {
-        context.view.saved.layout.toggle(context.view.saved.workspace, PaneKind::INSPECTOR);
-    }
-    // Only a narrow window looks at this.
-    context.view.inspector_over = true;
-}
-
-/// The forms a set can be saved in; those that are not for such a set say why.
-pub(super) fn save_as(ui: &mut Ui, kind: SetKind, name: &str, context: &mut PaneContext<'_>) {
-    ui.menu_button("Save as", |ui| {
-        let Ok(entry) = context.scene.entry(kind, name) else { return };
-        for form in Form::all() {
-            let fitting = fits(&entry, form);
-            let button = ui.add_enabled(fitting.is_ok(), egui::Button::new(form.name()));
-            if button.clicked() {
-                context.push(Command::SaveSet(kind, name.to_owned(), form));
-                ui.close();
-            }
-            if let Err(error) = fitting {
-                button.on_disabled_hover_text(sentence(&error.to_string()));
-            }
-        }
-    });
 }

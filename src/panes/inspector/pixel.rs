@@ -16,8 +16,10 @@ use crate::view::PixelPlace;
 use crate::workspaces::PaneKind;
 
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    ui.spacing_mut().item_spacing.y = 0.5 * UNIT;
-    ui.spacing_mut().interact_size.y = 14.0;
+    if !context.view.is_shown(PaneKind::RENDER) {
+        return;
+    }
+    ui.add_space(UNIT);
     let Some(pinned) = context.view.render.pinned.clone() else {
         return widgets::note(ui, "Point at a picture to read it; click to pin the pixel, Esc to unpin it.");
     };
@@ -37,8 +39,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         PixelShows::NoValue => drop(ui.label(NO_VALUE)),
         PixelShows::Unlit => drop(ui.label("No light reaches it: facing away, or in shadow.")),
         PixelShows::Lit(lit) => {
-            let numbers =
-                ui.scope(|ui| show_pairs(ui, PaneKind::RENDER_SETTINGS, "pixel", &facts(&lit, measure), context));
+            let numbers = ui.scope(|ui| show_pairs(ui, PaneKind::INSPECTOR, "pixel", &facts(&lit, measure), context));
             numbers.response.on_hover_text(if shot.query.image().is_some() {
                 "RGB: linear sRGB at this exposure, before clipping. xy, Lab and the difference from the reference: a \
                  reflectance of 1, or the white of radiances, has Y = 1."
@@ -47,7 +48,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
                  white of the same roughness that faces the light has Y = 1. g: at 550 nm."
             });
             others(ui, &place, shot, context);
-            widgets::pixel::spectrum(ui, "spectrum in settings", shot, reading.at, context);
+            widgets::pixel::spectrum(ui, "spectrum in inspector", shot, reading.at, context);
             if let Some((_, transform)) = lit.roughness {
                 widgets::note(ui, format!("g at 550 nm, {transform}"));
             }
@@ -79,5 +80,5 @@ fn others(ui: &mut Ui, place: &PixelPlace, shot: &RenderedFrame, context: &PaneC
         let difference = lit.difference.map_or_else(String::new, |difference| measure.number(difference));
         table.push([Cell::from(source.label.as_str()), x, y, Cell::from(difference)]);
     }
-    DataTable::new(PaneKind::RENDER_SETTINGS, "pixel in all pictures", &table).show_compact(ui, context);
+    DataTable::new(PaneKind::INSPECTOR, "pixel in all pictures", &table).show_compact(ui, context);
 }

@@ -5,8 +5,10 @@ use egui::{Id, Key, Rect, Sense, TextEdit, TextStyle, Ui, Vec2};
 use crate::action::{Action, CompareAction};
 use crate::command::Command;
 use crate::document::SetKind;
+use crate::format::fixed;
+use crate::names::fitted;
 use crate::panes::context::PaneContext;
-use crate::panes::widgets::{self, focus_rim, lines};
+use crate::panes::widgets::{self, focus_rim, lines, sets};
 use crate::plot_item::PlotItem;
 use crate::scene::ComparedSensor;
 use crate::theme::{FADED, ROW, UNIT};
@@ -41,7 +43,7 @@ pub(super) fn row(ui: &mut Ui, source: &ComparedSensor, context: &mut PaneContex
     if renaming.kind == Some(source.kind) && renaming.name == source.name {
         rename_field(ui, words, id, renaming, context);
     } else {
-        words.max.x -= tag(ui, words, source, context);
+        words.max.x -= mean(ui, words, source, context).unwrap_or_else(|| tag(ui, words, source, context));
         if let Some(error) = trouble(source, context) {
             words.max.x -= 18.0;
             let mark = Rect::from_center_size(egui::pos2(words.right() + 9.0, rect.center().y), Vec2::splat(16.0));
@@ -81,6 +83,17 @@ fn toggle(source: &ComparedSensor, context: &mut PaneContext<'_>) {
 
 fn thing(source: &ComparedSensor) -> PlotItem {
     PlotItem::of_set(source.kind, &source.name)
+}
+
+/// Mean difference from the reference over the patches, at the end of the row. Returns the width that it takes.
+fn mean(ui: &Ui, rect: Rect, source: &ComparedSensor, context: &PaneContext<'_>) -> Option<f32> {
+    let differences = context.scene.differences(source.kind, &source.name).ok().filter(|_| !source.is_reference)?;
+    let known: Vec<f64> = differences.iter().filter_map(|difference| difference.ok()).collect();
+    let mean = known.iter().sum::<f64>() / known.len() as f64;
+    let words = fixed(mean, context.scene.document.difference.decimals);
+    let drawn =
+        mean.is_finite().then(|| lines::right_aligned(ui, rect, &words, TextStyle::Monospace, context.theme.text));
+    drawn.map(|width| width + UNIT)
 }
 
 fn tag(ui: &Ui, rect: Rect, source: &ComparedSensor, context: &PaneContext<'_>) -> f32 {
@@ -123,7 +136,11 @@ fn label(ui: &Ui, rect: Rect, row: Rect, id: Id, source: &ComparedSensor, contex
         ui.painter().rect_stroke(row, 3.0, stroke, egui::StrokeKind::Inside);
     }
     let color = context.theme.text.gamma_multiply(if source.visible { 1.0 } else { FADED + 0.25 });
-    let cut = lines::name(ui, rect, &source.label, TextStyle::Body, color);
+    let all: Vec<String> = context.scene.sources().into_iter().map(|source| source.label).collect();
+    let fits = |form: &str| lines::width(ui, form, TextStyle::Body) <= rect.width();
+    let shown = fitted(&source.label, &all, fits);
+    lines::elided(ui, rect, &shown, TextStyle::Body, color);
+    let cut = shown != source.label;
     if response.clicked() {
         context.view.click(Some(&thing));
     }
@@ -156,9 +173,9 @@ fn menu(ui: &mut Ui, source: &ComparedSensor, context: &mut PaneContext<'_>) {
     }
     if offer(ui, "Source", true) {
         context.view.selected = Some(thing(source));
-        super::sets::show_inspector(context);
+        sets::show_inspector(context);
     }
-    super::sets::save_as(ui, source.kind, &source.name, context);
+    sets::save_as(ui, source.kind, &source.name, context);
     if source.is_own && offer(ui, "Reading…", true) {
         context.push(Command::ShowImport(ImportItem::Set(source.name.clone()), None));
     }

@@ -1,70 +1,36 @@
-//! Settings of the render: mesh, material, surface, light, view; and the pixel that is read.
+//! Settings of the render: mesh, material, surface, light, view.
 
-mod pixel;
 mod scene;
 
 use chromascope_text::{Look, Number, Pick, Setting, Settings as _, Value};
-use egui::{CollapsingHeader, DragValue, Rect, ScrollArea, Ui, UiBuilder, Vec2};
+use egui::{CollapsingHeader, DragValue, Rect, Ui, UiBuilder, Vec2};
 
-use super::context::{Pane, set_render as set};
 use crate::document::render::RenderSettings;
 use crate::document::render::settings::{LIGHT, SURFACE, VIEW};
 use crate::format::number;
 use crate::panes::context::PaneContext;
+use crate::panes::context::set_render as set;
 use crate::panes::widgets;
 use crate::panes::widgets::pick_list::{self, Line};
 use crate::scene::orbit::Orbit;
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
-/// Height of the numbers of a pixel, at the foot of the pane, beside a line for each of some sensors. They lie over the foot of the
-/// groups, which stay where they are.
-const PIXEL: f32 = 128.0;
-const PIXEL_LINE: f32 = 17.0;
-const PIXEL_LINES: usize = 6;
-/// Height while no pixel is pinned: the status bar reads the one under the pointer.
-const NO_PIXEL: f32 = 44.0;
 /// Width of a value beside its slider, and of the gap between.
 const VALUE: f32 = 76.0;
 /// Height of a line of small text, and of a slider.
 const LINE: f32 = 15.0;
 const SLIDER: f32 = 24.0;
-/// In a lower pane they are a group among the others.
-const WITH_PIXEL: f32 = 480.0;
 
-pub const PANE: Pane = Pane::new(PaneKind::RENDER_SETTINGS, "Render settings", show);
-
-fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::pane(ui, &PANE, rect, context, |_, _| {});
-    let sources = context.scene.rendered_sources().len();
-    let kept = context.view.render.pinned.is_some();
-    let spectrum =
-        if context.scene.document.render.mesh.is_image() { widgets::pixel::SPECTRUM_HEIGHT + UNIT } else { 0.0 };
-    let foot = if kept { PIXEL + PIXEL_LINE * sources.min(PIXEL_LINES) as f32 + spectrum } else { NO_PIXEL };
-    let below = if body.height() > WITH_PIXEL { foot } else { 0.0 };
-    let groups = body.with_max_y(body.bottom() - below);
-    widgets::scroll(ui, (PANE.kind, "render setup"), groups, context, |ui, context| {
+/// Shows the settings in a rectangle of the right column.
+pub(super) fn show(ui: &mut Ui, body: Rect, context: &mut PaneContext<'_>) {
+    widgets::scroll(ui, (PaneKind::SETTINGS, "render setup"), body, context, |ui, context| {
         ui.spacing_mut().item_spacing.y = 0.5 * UNIT;
         group(ui, LIGHT, context, |ui, context| controls(ui, LIGHT, context));
         group(ui, SURFACE, context, scene::surface);
         group(ui, VIEW, context, show_view);
-        if below == 0.0 {
-            group(ui, "Pixel", context, pixel::show);
-        }
         ui.add_space(2.0 * UNIT);
     });
-    if below > 0.0 {
-        let rect = Rect::from_min_max(groups.left_bottom(), body.max);
-        ui.painter().hline(
-            groups.shrink2(Vec2::new(2.0 * UNIT, 0.0)).x_range(),
-            rect.top(),
-            egui::Stroke::new(1.0, context.theme.line),
-        );
-        let room = rect.shrink2(Vec2::new(2.0 * UNIT, UNIT));
-        let mut child = ui.new_child(UiBuilder::new().id_salt("pixel").max_rect(room));
-        child.set_clip_rect(rect.intersect(ui.clip_rect()));
-        ScrollArea::vertical().id_salt("pixel").auto_shrink(false).show(&mut child, |ui| pixel::show(ui, context));
-    }
 }
 
 fn group(ui: &mut Ui, words: &str, context: &mut PaneContext<'_>, content: impl FnOnce(&mut Ui, &mut PaneContext<'_>)) {
@@ -313,7 +279,7 @@ fn show_view(ui: &mut Ui, context: &mut PaneContext<'_>) {
 
 /// The field of view, which is no part of the document.
 fn lens(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
-    let orbit = context.view.saved.render.orbit.unwrap_or_else(|| Orbit::of(&settings.mesh));
+    let orbit = context.view.saved.render.orbit.unwrap_or_else(|| Orbit::of(settings));
     let hint =
         "Of the lens; the viewpoint moves so that the mesh keeps its size. Wide lenses fall off with cos⁴ (Eq 12)";
     let is_enabled = !settings.mesh.is_image();

@@ -1,0 +1,164 @@
+//! Surroundings of a mesh: a chart of patches beside it, and the ground beneath it.
+
+use crate::{Mesh, Part};
+use glam::Vec3;
+use std::f32::consts::TAU;
+
+/// Azimuth that the chart faces, in degrees to the right of the mesh's front: where the eye is at first.
+const FACING_DEG: f32 = -25.0;
+/// Height of the chart's middle above that of the mesh, width of a chart of 6 × 4 patches and depth, in radii of the mesh.
+const MIDDLE: f32 = 0.0;
+const WIDTH: f32 = 0.72;
+const DEPTH: f32 = 0.015;
+/// Share of its cell that a patch fills, and the frame's width in cells.
+const FILLED: f32 = 0.86;
+const FRAME: f32 = 0.35;
+/// From the mesh to the chart's frame, in radii.
+const GAP: f32 = 0.1;
+/// From the middle of the mesh towards where the chart faces, in radii: before the shadow of the mesh.
+const AHEAD: f32 = 0.3;
+/// Radius of the ground in radii of the mesh.
+const GROUND: f32 = 12.0;
+/// Its division; rings lie closer towards the middle.
+const RINGS: u32 = 56;
+const SECTORS: u32 = 96;
+
+/// Share of a cropped mesh's height that a picture of the whole leaves out: of a head on its shoulders, all below the chest.
+const CROPPED: f32 = 0.2;
+
+/// What stands about a mesh.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Stage {
+    /// Number of the chart's patches; 0 without a chart.
+    pub patches: u16,
+    /// True for a level plane beneath the mesh.
+    pub ground: bool,
+    /// True if the mesh is the head, with hair and brows.
+    pub hair: bool,
+    /// True if a picture of the whole leaves the lowest part of the mesh out.
+    pub cropped: bool,
+}
+
+impl Stage {
+    /// A mesh with this about it. Bounds stay those of the mesh alone; a picture of the whole shows the chart, but not all of the
+    /// ground.
+    #[expect(clippy::missing_panics_doc, reason = "what is built here is finite")]
+    pub fn about(self, mesh: &Mesh) -> Mesh {
+        let mut built = Built::default();
+        if self.patches > 0 {
+            built.chart(mesh, self.patches);
+        }
+        let framed = built.positions.len();
+        if self.ground {
+            built.ground(mesh);
+        }
+        let bounds = mesh.bounds();
+        let mut staged = mesh.clone();
+        if !built.triangles.is_empty() {
+            let others = Mesh::new(built.positions, built.normals, built.triangles).expect("quadrilaterals are finite");
+            staged = staged.among(others.with_parts(built.parts), framed);
+        }
+        #[cfg(feature = "data")]
+        if self.hair {
+            staged = staged.relabeled(crate::head::part_at);
+        }
+        if self.cropped {
+            staged = staged.framed_above(bounds.min.y + CROPPED * (bounds.max.y - bounds.min.y));
+        }
+        staged
+    }
+}
+
+/// Columns and rows of a chart, as near to 3 : 2 as they come: 6 × 4 of 24.
+pub fn layout(patches: u16) -> [u16; 2] {
+    let columns = (f32::from(patches) * 1.5).sqrt().ceil().max(1.0) as u16;
+    [columns, patches.div_ceil(columns)]
+}
+
+#[derive(Default)]
+struct Built {
+    positions: Vec<Vec3>,
+    normals: Vec<Vec3>,
+    triangles: Vec<[u32; 3]>,
+    parts: Vec<Part>,
+}
+
+impl Built {
+    /// A parallelogram about a middle that faces u × v.
+    fn quad(&mut self, middle: Vec3, u: Vec3, v: Vec3, part: Part) {
+        let first = self.positions.len() as u32;
+        self.positions.extend([middle - u - v, middle + u - v, middle + u + v, middle - u + v]);
+        self.normals.extend([u.cross(v).normalize_or_zero(); 4]);
+        self.triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+        self.parts.extend([part; 2]);
+    }
+
+    /// A box about a middle with these half edges, right-handed.
+    fn cuboid(&mut self, middle: Vec3, [u, v, w]: [Vec3; 3]) {
+        for (u, v, w) in [(u, v, w), (v, w, u), (w, u, v)] {
+            self.quad(middle + w, u, v, Part::Card);
+            self.quad(middle - w, v, u, Part::Card);
+        }
+    }
+
+    /// Patches on a card on a post, on the right of the mesh seen from where the chart faces.
+    fn chart(&mut self, mesh: &Mesh, patches: u16) {
+        let bounds = mesh.bounds();
+        let (sin, cos) = FACING_DEG.to_radians().sin_cos();
+        let (right, up, ahead) = (Vec3::new(cos, 0.0, -sin), Vec3::Y, Vec3::new(sin, 0.0, cos));
+        let [columns, rows] = layout(patches).map(f32::from);
+        let cell = bounds.radius * WIDTH / (columns + 2.0 * FRAME);
+        let half = Vec3::new(columns, rows, 0.0) * (0.5 * cell) + Vec3::new(FRAME, FRAME, 0.0) * cell;
+        let level = bounds.center().y + MIDDLE * bounds.radius;
+        // Beside all that is at its height, as near as that lets it.
+        let heights = level - half.y - GAP * bounds.radius..level + half.y + 3.0 * GAP * bounds.radius;
+        let beside = |p: &&Vec3| heights.contains(&p.y);
+        let reach = mesh.positions().iter().filter(beside).map(|p| (*p - bounds.center()).dot(right));
+        let middle = bounds.center().with_y(level)
+            + right * (reach.fold(0.0, f32::max) + GAP * bounds.radius + half.x)
+            + ahead * (AHEAD * bounds.radius);
+        let depth = DEPTH * bounds.radius;
+        self.cuboid(middle - ahead * depth, [right * half.x, up * half.y, ahead * depth]);
+        let foot = bounds.min.y.min(level - half.y);
+        let post = 0.5 * (level - half.y - foot);
+        self.cuboid((middle - ahead * depth).with_y(foot + post), [right * depth, up * post, ahead * depth]);
+        for patch in 0..patches {
+            let (column, row) = (f32::from(patch % columns as u16), f32::from(patch / columns as u16));
+            let aside = right * (column + 0.5 - 0.5 * columns) - up * (row + 0.5 - 0.5 * rows);
+            let size = 0.5 * FILLED * cell;
+            self.quad(middle + aside * cell + ahead * (0.1 * depth), right * size, up * size, Part::Patch(patch));
+        }
+    }
+
+    fn ground(&mut self, mesh: &Mesh) {
+        let bounds = mesh.bounds();
+        let middle = bounds.center().with_y(bounds.min.y);
+        let first = self.positions.len() as u32;
+        self.positions.push(middle);
+        for ring in 1..=RINGS {
+            let share = ring as f32 / RINGS as f32;
+            let radius = GROUND * bounds.radius * share * share;
+            let at = |sector: u32| {
+                let (sin, cos) = (TAU * sector as f32 / SECTORS as f32).sin_cos();
+                middle + Vec3::new(sin, 0.0, cos) * radius
+            };
+            self.positions.extend((0..SECTORS).map(at));
+        }
+        self.normals.resize(self.positions.len(), Vec3::Y);
+        let at = |ring: u32, sector: u32| match ring {
+            0 => first,
+            _ => first + 1 + (ring - 1) * SECTORS + sector % SECTORS,
+        };
+        for ring in 0..RINGS {
+            for sector in 0..SECTORS {
+                let [a, b, c, d] =
+                    [at(ring, sector), at(ring + 1, sector), at(ring + 1, sector + 1), at(ring, sector + 1)];
+                self.triangles.push([a, b, c]);
+                if ring > 0 {
+                    self.triangles.push([a, c, d]);
+                }
+            }
+        }
+        self.parts.resize(self.triangles.len(), Part::Ground);
+    }
+}

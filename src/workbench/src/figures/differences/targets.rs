@@ -1,0 +1,465 @@
+//! Targets: a plot for each camera with the reference in its middle and an arrow for each patch.
+
+use std::f64::consts::TAU;
+
+use chromascope_core::colorimetry::{Lab, Metric, UvPrime, Xy};
+use chromascope_core::query::displacement::{JUST_VISIBLE_UV_PRIME, unit_contour};
+use chromascope_core::query::{Displacements, PatchColor};
+use chromascope_figure::{
+    Anchor, Dash, Field, Ink, InkRole, Label, Labels, Mark, Marker, Panel, Place, Rect, Shape, Table, TextSize,
+    clip_segment, text_width, wrapped,
+};
+
+use super::{Built, Compared, axes, compared, id, place};
+use crate::document::{SetKind, TransformChoice};
+use crate::figures::look::{DifferencePlane, FigureLook};
+use crate::format::{cut_in_middle, fixed, number};
+use crate::plot_item::{PickIndex, PlotItem};
+use crate::scene::Scene;
+
+/// Height of a camera's head, and of the line of its statistics.
+const HEAD: f64 = 19.0;
+const LINE: f64 = 15.0;
+/// Space between cells and around what is fitted into them.
+const GAP: f64 = 6.0;
+/// Width of an arrow's shaft and of its casing, length and half width of its head.
+const SHAFT: [f64; 2] = [2.0, 3.6];
+const TIP: [f64; 2] = [7.0, 3.6];
+/// Least distance of the rings of round lengths.
+const RINGS: f64 = 30.0;
+/// Points of a closed line.
+const CORNERS: u32 = 96;
+
+/// Cells of all cameras, and the scale that they share.
+pub(super) struct Frame {
+    columns: usize,
+    cell: [f64; 2],
+    /// Height of the words above a plot.
+    head: f64,
+    /// The reference's place in a plot, from its upper left corner.
+    origin: [f64; 2],
+    /// Points for each unit of the plane.
+    pub(super) scale: f64,
+}
+
+impl Frame {
+    /// The arrangement of cells with the largest scale. What fits: all but the largest twentieth of each camera's arrows, and
+    /// the just visible limit. Exaggerated, the scale grows about the reference.
+    pub(super) fn of(scene: &Scene<'_>, all: &[Compared], plane: DifferencePlane, size: [f64; 2]) -> Self {
+        let least = limit(scene, plane).into_iter();
+        let arrows = all.iter().flat_map(|one| &one.shift).flat_map(|shift| {
+            let is_usual = |v: &&[f64; 2]| v[0].hypot(v[1]) <= 1.1 * shift.p95;
+            shift.vectors.iter().flatten().filter(is_usual).copied()
+        });
+        let (mut low, mut high) = ([-1e-9; 2], [1e-9; 2]);
+        for point in least.chain(arrows) {
+            for axis in 0..2 {
+                low[axis] = f64::min(low[axis], point[axis]);
+                high[axis] = f64::max(high[axis], point[axis]);
+            }
+        }
+        let count = all.len().max(1);
+        let frames = (1..=count).map(|columns| {
+            let rows = count.div_ceil(columns) as f64;
+            let cell = [(size[0] - GAP) / columns as f64 - GAP, (size[1] - GAP) / rows - GAP];
+            let head = if cell[1] > 180.0 { HEAD + LINE } else { HEAD };
+            let room = [cell[0], cell[1] - head].map(|side| (side - 2.0 * TIP[0]).max(4.0));
+            let fits = (room[0] / (high[0] - low[0])).min(room[1] / (high[1] - low[1]));
+            let origin = [
+                TIP[0] + 0.5 * (room[0] - fits * (high[0] + low[0])),
+                TIP[0] + 0.5 * (room[1] + fits * (high[1] + low[1])),
+            ];
+            Self { columns, cell, head, origin, scale: fits }
+        });
+        let best = frames.reduce(|a, b| if b.scale > a.scale { b } else { a });
+        let best = best.unwrap_or(Self { columns: 1, cell: size, head: HEAD, origin: [0.0; 2], scale: 1.0 });
+        Self { scale: best.scale * scene.document.exaggeration.factor(), ..best }
+    }
+
+    fn corner(&self, index: usize) -> [f64; 2] {
+        let (row, column) = (index / self.columns, index % self.columns);
+        [GAP + column as f64 * (self.cell[0] + GAP), GAP + row as f64 * (self.cell[1] + GAP)]
+    }
+
+    /// A round length whose rings are far enough from each other, and few up to a distance in points.
+    fn round(&self, far: f64) -> f64 {
+        let least = RINGS.max(far / 5.0) / self.scale;
+        let decade = 10_f64.powf(least.log10().floor());
+        [1.0, 2.0, 5.0].map(|step| step * decade).into_iter().find(|step| *step >= least).unwrap_or(10.0 * decade)
+    }
+}
+
+/// A camera's plot while it is drawn.
+struct Target<'a> {
+    frame: &'a Frame,
+    area: Rect,
+    marks: Vec<Mark>,
+}
+
+impl Target<'_> {
+    fn at(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let Frame { origin, scale, .. } = self.frame;
+        [self.area.min[0] + origin[0] + x * scale, self.area.min[1] + origin[1] - y * scale]
+    }
+
+    /// A closed line around the reference, where it lies in the plot.
+    fn outline(&mut self, name: &str, points: &[[f64; 2]], ink: impl Into<Ink>, (width, dash): (f64, Dash)) {
+        let placed: Vec<[f64; 2]> = points.iter().chain(points.first()).map(|point| self.at(*point)).collect();
+        let segments = placed.windows(2).filter_map(|ends| clip_segment(self.area, [ends[0], ends[1]]));
+        let mut line: Vec<[f64; 2]> = Vec::new();
+        for [a, b] in segments {
+            if line.last() != Some(&a) {
+                line.extend([[f64::NAN; 2], a]);
+            }
+            line.push(b);
+        }
+        let mark = Mark::new(PickIndex::NONE, name, Shape::Line { points: line, closed: false });
+        self.marks.push(mark.with_stroke(ink, width).with_dash(dash));
+    }
+
+    fn segment(&mut self, name: &str, ends: [[f64; 2]; 2], ink: InkRole, width: f64) {
+        let Some(ends) = clip_segment(self.area, ends) else { return };
+        let mark = Mark::new(PickIndex::NONE, name, Shape::Segments { segments: vec![ends] });
+        self.marks.push(mark.with_stroke(ink, width));
+    }
+
+    /// An arrow in the patch's color, cased; cut at the frame it has two tips. Returns the point of its tip and whether it is cut.
+    fn arrow(
+        &mut self,
+        (tag, name): (chromascope_figure::Tag, &str),
+        vector: [f64; 2],
+        color: Ink,
+    ) -> ([f64; 2], bool) {
+        let (from, to) = (self.at([0.0; 2]), self.at(vector));
+        let inner = Rect { min: self.area.min.map(|v| v + 2.0), max: self.area.max.map(|v| v - 2.0) };
+        let end = clip_segment(inner, [from, to]).map_or(from, |ends| ends[1]);
+        let is_cut = (end[0] - to[0]).hypot(end[1] - to[1]) > 0.5;
+        let along = [end[0] - from[0], end[1] - from[1]];
+        let length = along[0].hypot(along[1]);
+        let casing = Ink::new(InkRole::Text).faded(0.75);
+        if length < 1.5 {
+            let dot = Shape::Points { points: vec![end], marker: Marker::Circle, radius: 1.5 };
+            self.marks.push(Mark::new(tag, name, dot).with_fill(color).with_stroke(casing, 0.8));
+            return (end, is_cut);
+        }
+        let along = along.map(|v| v / length);
+        let tip = TIP[0].min(0.7 * length);
+        let half = TIP[1] * tip / TIP[0];
+        let back = |distance: f64, aside: f64| {
+            [end[0] - distance * along[0] - aside * along[1], end[1] - distance * along[1] + aside * along[0]]
+        };
+        let mut tips = vec![vec![end, back(tip, half), back(tip, -half)]];
+        if is_cut {
+            tips.push(vec![back(0.8 * tip, 0.0), back(1.8 * tip, half), back(1.8 * tip, -half)]);
+        }
+        let shaft = |width: f64, ink: Ink, tag| {
+            let shape = Shape::Segments { segments: vec![[from, back(0.7 * tip, 0.0)]] };
+            Mark::new(tag, name, shape).with_stroke(ink, width)
+        };
+        let polygon = |points: &Vec<[f64; 2]>| Mark::new(tag, name, Shape::Polygon { points: points.clone() });
+        self.marks.push(shaft(SHAFT[1], casing, PickIndex::NONE));
+        self.marks.extend(tips.iter().map(|tip| polygon(tip).with_stroke(casing, 2.0 * 0.8)));
+        self.marks.push(shaft(SHAFT[0], color, tag));
+        self.marks.extend(tips.iter().map(|tip| polygon(tip).with_fill(color)));
+        // Its end is what the pointer finds, and where the ring of a chosen one stands.
+        let point = Shape::Points { points: vec![back(0.5 * tip, 0.0)], marker: Marker::Dot, radius: 1.0 };
+        self.marks.push(Mark::new(tag, name, point).with_fill(color));
+        (end, is_cut)
+    }
+}
+
+fn circle(radius: f64) -> Vec<[f64; 2]> {
+    let point = |index| {
+        let (sin, cos) = (TAU * f64::from(index) / f64::from(CORNERS)).sin_cos();
+        [radius * cos, radius * sin]
+    };
+    (0..CORNERS).map(point).collect()
+}
+
+/// Outline of differences that are just visible, at the mean of the reference's patches; none where nothing says so.
+fn limit(scene: &Scene<'_>, plane: DifferencePlane) -> Vec<[f64; 2]> {
+    let colors = scene.patch_colors(SetKind::Observer, &scene.document.reference).unwrap_or_default();
+    let known: Vec<[f64; 2]> = colors.iter().filter_map(|color| place(plane, color)).collect();
+    let count = known.len().max(1) as f64;
+    let [a, b] = known.iter().fold([0.0; 2], |sum, point| [sum[0] + point[0] / count, sum[1] + point[1] / count]);
+    match plane {
+        DifferencePlane::UvPrime => circle(JUST_VISIBLE_UV_PRIME),
+        DifferencePlane::Xy => {
+            let Some(mean) = (Xy { x: a, y: b }).uv_prime() else { return Vec::new() };
+            let point = |[u, v]: [f64; 2]| UvPrime { u: mean.u + u, v: mean.v + v }.xy().map(|xy| [xy.x - a, xy.y - b]);
+            circle(JUST_VISIBLE_UV_PRIME).into_iter().filter_map(point).collect()
+        }
+        // By Eq 13 there is no CIE L*a*b*.
+        DifferencePlane::Lab if scene.document.transform != TransformChoice::Paper => {
+            let l = colors.iter().filter_map(|color| Some(color.lab?.l / count)).sum();
+            unit_contour(Metric::DELTA_E_2000, Lab { l, a, b }, CORNERS)
+        }
+        DifferencePlane::Lab | DifferencePlane::Loci => Vec::new(),
+    }
+}
+
+/// The limit in words.
+fn limit_words(scene: &Scene<'_>, plane: DifferencePlane) -> String {
+    match plane {
+        _ if limit(scene, plane).is_empty() => String::new(),
+        DifferencePlane::Lab => " Thin line: ΔE*00 = 1 at the patches' mean.".to_owned(),
+        DifferencePlane::Xy => {
+            format!(" Thin line: just visible at the patches' mean (Δu′v′ {JUST_VISIBLE_UV_PRIME}, CIE TN 001).")
+        }
+        _ => format!(" Thin circle: just visible (Δu′v′ {JUST_VISIBLE_UV_PRIME}, CIE TN 001)."),
+    }
+}
+
+pub(super) fn build(
+    scene: &Scene<'_>,
+    look: &FigureLook,
+    plane: DifferencePlane,
+    size: [f64; 2],
+) -> Result<Built, String> {
+    let (reference, all) = compared(scene, plane)?;
+    let names: Vec<String> =
+        scene.patches().map_err(|error| error.to_string())?.patches().iter().map(|p| p.name.clone()).collect();
+    let frame = Frame::of(scene, &all, plane, size);
+    let mut things = PickIndex::default();
+    let mut panel = Panel::board("Differences", Rect::from_min_size([0.0; 2], size), Ink::new(InkRole::Plot));
+    let mut texts = Vec::new();
+    let limit = limit(scene, plane);
+    let heads = Heads::new(&frame, &all, axes(plane).1, scene.document.exaggeration.note());
+    for (index, one) in all.iter().enumerate() {
+        let corner = frame.corner(index);
+        heads.add(&mut panel, index, one, &mut things);
+        let min = [corner[0], corner[1] + frame.head];
+        let area = Rect { min, max: [corner[0] + frame.cell[0], corner[1] + frame.cell[1]] };
+        let mut target = Target { frame: &frame, area, marks: Vec::new() };
+        target.ground(plane, index == 0, &mut texts);
+        match &one.shift {
+            Err(why) => {
+                for (line, words) in wrapped(why, TextSize::Small, area.width() - 12.0).iter().enumerate() {
+                    let at = [area.min[0] + 6.0, area.min[1] + 12.0 + LINE * line as f64];
+                    target.marks.push(Mark::text(words.as_str(), at, Anchor::LEFT, TextSize::Small, InkRole::Text));
+                }
+            }
+            Ok(shift) => {
+                let ink = one.source.role;
+                target.outline("just visible", &limit, InkRole::Weak, (0.8, Dash::Solid));
+                if index == 0 && heads.is_below() && !limit.is_empty() {
+                    let words = if plane == DifferencePlane::Lab { "ΔE*00 = 1" } else { "just visible" };
+                    let starts = limit.iter().step_by(12).map(|point| target.at(*point)).collect();
+                    texts.push(Label { starts, ..Label::new(words, InkRole::Weak, Vec::new()) });
+                }
+                target.outline("95 % quantile of the lengths", &circle(shift.p95), ink, (1.2, Dash::Dashed));
+                let patches = Patches { one, names: &names, reference: &reference, look, decimals: axes(plane).1 };
+                patches.add(&mut target, shift, &mut things, &mut texts);
+                let cross = Shape::Points { points: vec![target.at(shift.mean)], marker: Marker::Cross, radius: 4.5 };
+                let cross = Mark::new(
+                    things.tag(PlotItem::Sensor(id(&one.source))),
+                    format!("{}, mean", one.source.label),
+                    cross,
+                );
+                if area.contains(target.at(shift.mean)) {
+                    target.marks.push(cross.with_stroke(ink, 2.0).with_halo(InkRole::Plot));
+                }
+            }
+        }
+        panel.marks.append(&mut target.marks);
+    }
+    let mut labels = Labels::new(&panel);
+    for label in &texts {
+        labels.place(label);
+    }
+    panel.marks.extend(labels.into_marks());
+    Ok(Built { panels: vec![panel], things })
+}
+
+/// Heads of all cameras, their statistics in one form: the longest that fits beside the shortest names.
+struct Heads<'a> {
+    frame: &'a Frame,
+    short: Vec<String>,
+    decimals: usize,
+    note: Option<String>,
+    form: usize,
+}
+
+impl<'a> Heads<'a> {
+    /// Room of the marker before the name, and between name and statistics.
+    const KEY: f64 = 17.0;
+    const AIR: f64 = 10.0;
+
+    fn new(frame: &'a Frame, all: &[Compared], decimals: usize, note: Option<String>) -> Self {
+        let short = crate::names::shortest(all.iter().map(|one| one.source.label.as_str()));
+        let heads = Self { frame, short, decimals, note, form: 0 };
+        let fits = |form: &usize| {
+            let mut cells = all.iter().zip(&heads.short);
+            cells.all(|(one, short)| {
+                let beside = if heads.is_below() { 0.0 } else { Self::named(short) + Self::AIR };
+                beside + text_width(&heads.statistics(one, *form), TextSize::Small) <= frame.cell[0]
+            })
+        };
+        Self { form: (0..3).find(fits).unwrap_or(3), ..heads }
+    }
+
+    fn is_below(&self) -> bool {
+        self.frame.head > HEAD
+    }
+
+    fn named(name: &str) -> f64 {
+        Self::KEY + text_width(name, TextSize::Body)
+    }
+
+    /// Statistics in words, shorter from form to form; the exaggeration is never left out.
+    fn statistics(&self, one: &Compared, form: usize) -> String {
+        let Ok(shift) = &one.shift else { return String::new() };
+        let [mean, p95] = [shift.mean_length, shift.p95].map(|length| fixed(length, self.decimals));
+        let words = match form {
+            0 => format!("mean {mean}, 95 % {p95}"),
+            1 => format!("mean {mean}"),
+            2 => mean,
+            _ => String::new(),
+        };
+        let parts = [words, self.note.clone().unwrap_or_default()];
+        parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("; ")
+    }
+
+    fn add(&self, panel: &mut Panel, index: usize, one: &Compared, things: &mut PickIndex) {
+        let (source, corner, width) = (&one.source, self.frame.corner(index), self.frame.cell[0]);
+        let tag = things.tag(PlotItem::Sensor(id(source)));
+        let middle = corner[1] + 0.5 * HEAD;
+        let shape = Shape::Points { points: vec![[corner[0] + 6.0, middle]], marker: source.marker, radius: 4.5 };
+        let key = Mark::new(tag, &source.label, shape).with_stroke(source.role, 1.5);
+        panel.marks.push(if source.marker.has_inside() { key.with_fill(source.role) } else { key });
+        let words = self.statistics(one, self.form);
+        let beside = text_width(&words, TextSize::Small) + Self::AIR;
+        let room = if self.is_below() || words.is_empty() { width } else { width - beside };
+        let name = if Self::named(&source.label) <= room { &source.label } else { &self.short[index] };
+        let name = cut_in_middle(name, |name| Self::named(name) <= room);
+        let name = Mark::text(name, [corner[0] + Self::KEY, middle], Anchor::LEFT, TextSize::Body, InkRole::Text);
+        panel.marks.push(Mark { tag, ..name });
+        let (at, anchor) = if self.is_below() {
+            ([corner[0], corner[1] + HEAD + 0.4 * LINE], Anchor::LEFT)
+        } else {
+            ([corner[0] + width, middle], Anchor::RIGHT)
+        };
+        panel.marks.push(Mark::text(words, at, anchor, TextSize::Small, InkRole::Weak));
+    }
+}
+
+impl Target<'_> {
+    /// Frame, lines through the reference, and rings of round lengths; names of axes and lengths where they are free.
+    fn ground(&mut self, plane: DifferencePlane, named: bool, texts: &mut Vec<Label>) {
+        let Rect { min, max } = self.area;
+        let frame = Mark::new(PickIndex::NONE, "frame", Shape::Rect { min, max });
+        self.marks.push(frame.with_stroke(InkRole::Grid, 1.0));
+        let [x, y] = self.at([0.0; 2]);
+        self.segment("reference", [[min[0], y], [max[0], y]], InkRole::Grid, 1.0);
+        self.segment("reference", [[x, min[1]], [x, max[1]]], InkRole::Grid, 1.0);
+        let far = (max[0] - x).max(x - min[0]).hypot((max[1] - y).max(y - min[1]));
+        let step = self.frame.round(far);
+        let small = |text: String, places: Vec<Place>| Label::new(text, InkRole::Weak, places);
+        for count in 1..=(far / (step * self.frame.scale)) as u32 {
+            let radius = f64::from(count) * step;
+            self.outline(&format!("length {}", number(radius)), &circle(radius), InkRole::Grid, (1.0, Dash::Solid));
+            if named || self.area.width() > 180.0 {
+                let directions = [[1.0, 0.0], [0.0, -1.0], [-1.0, 0.0], [0.0, 1.0]];
+                let places = directions.map(|[u, v]| {
+                    let at = self.at([u * radius, v * radius]);
+                    // Beside its ring, off the line through the reference.
+                    let (anchor, offset) =
+                        if v == 0.0 { (Anchor::TOP, [0.0, 2.0]) } else { (Anchor::LEFT, [3.0, 0.0]) };
+                    Place { at, anchor, offset }
+                });
+                let inside = places.into_iter().filter(|place| self.area.contains(place.at)).collect();
+                texts.push(small(number(radius), inside));
+            }
+        }
+        let [across, up] = axes(plane).0;
+        texts.push(small(
+            across.to_owned(),
+            vec![Place { at: [max[0], y], anchor: Anchor::RIGHT_BOTTOM, offset: [-3.0, -2.0] }],
+        ));
+        texts.push(small(up.to_owned(), vec![Place { at: [x, min[1]], anchor: Anchor::LEFT_TOP, offset: [4.0, 2.0] }]));
+    }
+}
+
+/// The patches of a camera.
+struct Patches<'a> {
+    one: &'a Compared,
+    names: &'a [String],
+    reference: &'a [PatchColor],
+    look: &'a FigureLook,
+    decimals: usize,
+}
+
+impl Patches<'_> {
+    /// Adds the arrows, the longest first; names those that the frame cuts and the one that is pointed at or chosen.
+    fn add(&self, target: &mut Target<'_>, shift: &Displacements, things: &mut PickIndex, texts: &mut Vec<Label>) {
+        let named = self.names.iter().zip(self.reference).zip(&shift.vectors);
+        let mut arrows: Vec<_> = named.filter_map(|((name, color), vector)| Some((name, color, (*vector)?))).collect();
+        arrows.sort_by(|a, b| b.2[0].hypot(b.2[1]).total_cmp(&a.2[0].hypot(a.2[1])));
+        let mut cut = 0;
+        for (patch, color, vector) in arrows {
+            let item = PlotItem::Patch { source: Some(id(&self.one.source)), patch: patch.clone() };
+            let pointed = [&self.look.hovered, &self.look.selected].into_iter().flatten();
+            let is_pointed = pointed.filter(|other| **other == item).count() > 0;
+            let tag = things.tag(item);
+            let vector = if self.look.blink { [0.0; 2] } else { vector };
+            let (end, is_cut) =
+                target.arrow((tag, &format!("{} {patch}", self.one.source.label)), vector, Ink::rgb(color.srgb.bytes));
+            cut += usize::from(is_cut);
+            let is_named = is_pointed || (is_cut && cut <= 3);
+            if !is_named {
+                continue;
+            }
+            let words = format!("{patch} {}", fixed(vector[0].hypot(vector[1]), self.decimals));
+            let [x, y] = target.at([0.0; 2]);
+            let toward = [(x - end[0]).signum(), (y - end[1]).signum()];
+            let places = [7.0, 12.0].into_iter().flat_map(|far| Place::around(end, toward, far));
+            let holds = |place: &Place| {
+                let width = text_width(&words, TextSize::Small);
+                let left = place.at[0] + place.offset[0] - place.anchor.0 * width;
+                left > target.area.min[0] && left + width < target.area.max[0]
+            };
+            let places: Vec<Place> = places.filter(holds).collect();
+            let label = Label::new(words, if is_pointed { InkRole::Text } else { InkRole::Weak }, places);
+            texts.push(Label { tag, always: is_pointed, ..label });
+        }
+    }
+}
+
+/// What the plots show, in sentences, with the numbers of each camera.
+pub(super) fn words(scene: &Scene<'_>, plane: DifferencePlane) -> String {
+    let [x, y] = axes(plane).0;
+    let by_eq_13 = plane == DifferencePlane::Lab && scene.document.transform == TransformChoice::Paper;
+    let eq_13 = if by_eq_13 { " L*a*b* of Eq 13 colors, which is not that of the CIE." } else { "" };
+    format!(
+        "Arrows: {x}, {y} from the reference, in the patch's color; all on one scale, double tip: beyond the frame. Cross: mean \
+         vector. Dashed ring: 95 % quantile of the lengths.{}{eq_13}",
+        limit_words(scene, plane)
+    )
+}
+
+/// A patch through a sensor and through the reference, with the names of both.
+type Shift = ([String; 2], PatchColor, PatchColor);
+
+const COLUMNS: [Field<Shift>; 9] = [
+    Field::new("sensor", |([sensor, _], ..)| sensor.as_str().into()),
+    Field::new("patch", |([_, patch], ..)| patch.as_str().into()),
+    Field::quantity(["d_u_prime", "Δu′", ""], |(_, a, b)| a.uv.zip(b.uv).map(|(a, b)| b.u - a.u).into()),
+    Field::quantity(["d_v_prime", "Δv′", ""], |(_, a, b)| a.uv.zip(b.uv).map(|(a, b)| b.v - a.v).into()),
+    Field::quantity(["d_x", "Δx", ""], |(_, a, b)| a.xy.zip(b.xy).map(|(a, b)| b.x - a.x).into()),
+    Field::quantity(["d_y", "Δy", ""], |(_, a, b)| a.xy.zip(b.xy).map(|(a, b)| b.y - a.y).into()),
+    Field::quantity(["d_l", "ΔL*", ""], |(_, a, b)| a.lab.zip(b.lab).map(|(a, b)| b.l - a.l).into()),
+    Field::quantity(["d_a", "Δa*", ""], |(_, a, b)| a.lab.zip(b.lab).map(|(a, b)| b.a - a.a).into()),
+    Field::quantity(["d_b", "Δb*", ""], |(_, a, b)| a.lab.zip(b.lab).map(|(a, b)| b.b - a.b).into()),
+];
+
+pub(super) fn table(scene: &Scene<'_>) -> Table {
+    let patches = scene.patches();
+    let names = patches.iter().flat_map(|set| set.patches()).map(|patch| &patch.name);
+    let reference = scene.patch_colors(SetKind::Observer, &scene.document.reference).unwrap_or_default();
+    let rows = super::sources(scene).unwrap_or_default().into_iter().flat_map(|source| {
+        let colors = scene.patch_colors(source.kind, &source.name).unwrap_or_default();
+        let row = |((name, a), b): ((&String, &PatchColor), PatchColor)| ([source.label.clone(), name.clone()], *a, b);
+        names.clone().zip(&reference).zip(colors).map(row).collect::<Vec<Shift>>()
+    });
+    Table::of(&COLUMNS, rows)
+}

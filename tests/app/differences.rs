@@ -1,0 +1,183 @@
+//! Differences large enough: the exaggeration of what is drawn, and each camera's differences from the reference.
+
+use chromascope::action::{Action, SceneAction};
+use chromascope::catalog::Catalog;
+use chromascope::document::{Document, Exaggeration, SetKind, TransformChoice};
+use chromascope::figures::differences::{self, KIND};
+use chromascope::figures::look::{DifferencePlane, FigureLook};
+use chromascope::figures::{chromaticity, swatches};
+use chromascope::results::Results;
+use chromascope::scene::Scene;
+use chromascope_core::light::RadiationConstants;
+use chromascope_core::query::{Ask as _, LocusDeviationsQuery, LocusQuery, NearestBlackBodyQuery};
+use chromascope_figure::{FigureRoom, Shape, text_area};
+use egui_kittest::kittest::Queryable as _;
+
+use crate::screenshots::open_with;
+
+fn with<T>(document: &Document, read: impl FnOnce(&Scene<'_>) -> T) -> T {
+    let (catalog, results) = (Catalog::built_in(), Results::default());
+    read(&Scene { document, catalog: &catalog, results: &results })
+}
+
+fn exaggerated(to: Exaggeration) -> Document {
+    let mut document = Document::colorimetry();
+    Action::Scene(SceneAction::SetExaggeration(to)).apply(&mut document);
+    document
+}
+
+fn look(difference_plane: DifferencePlane) -> FigureLook {
+    FigureLook { difference_plane, ..FigureLook::default() }
+}
+
+#[test]
+fn on_the_first_screen_each_cameras_mean_displacement_is_ten_pixels_long() {
+    let harness = open_with(Document::colorimetry(), [1280.0, 800.0], egui::Theme::Dark);
+    let rect = harness.get_by_role_and_label(egui::accesskit::Role::Canvas, "Differences").rect();
+    let size = [f64::from(rect.width()), f64::from(rect.height())];
+    let lengths =
+        with(&Document::colorimetry(), |scene| differences::mean_lengths(scene, &look(DifferencePlane::UvPrime), size));
+    assert_eq!(lengths.len(), 3);
+    assert!(lengths.iter().all(|length| *length >= 10.0), "{lengths:?} in {size:?}");
+}
+
+#[test]
+fn the_papers_start_keeps_the_strip_and_the_switch_exchanges_both() {
+    let shown = |document: Document| {
+        let harness = open_with(document, [1280.0, 800.0], egui::Theme::Dark);
+        ["Differences", "Distance to the reference over temperature"]
+            .map(|name| harness.query_by_role_and_label(egui::accesskit::Role::Canvas, name).is_some())
+    };
+    assert_eq!(shown(Document::paper()), [false, true]);
+    let mut document = Document::colorimetry();
+    document.overlays.multiples = false;
+    assert_eq!(shown(document), [false, true]);
+}
+
+#[test]
+fn swatches_of_24_are_large_on_the_first_screen_and_no_words_touch() {
+    let harness = open_with(Document::colorimetry(), [1280.0, 800.0], egui::Theme::Dark);
+    let rect = harness.get_by_role_and_label(egui::accesskit::Role::Canvas, "Swatches").rect();
+    let size = [f64::from(rect.width()), f64::from(rect.height())];
+    with(&Document::colorimetry(), |scene| {
+        let built = swatches::build(scene, &FigureLook::default(), size);
+        assert!(built.height <= size[1] + 0.5, "all in sight: {} of {}", built.height, size[1]);
+        let mut count = 0;
+        for mark in built.panel.marks.iter().filter(|mark| built.things.get(mark.tag).is_some()) {
+            let Shape::Rect { min, max } = mark.shape else { continue };
+            let [width, height] = [max[0] - min[0], max[1] - min[1]];
+            assert!(width >= 36.0 && height >= 28.0, "{}: {width} × {height} in {size:?}", mark.name);
+            count += 1;
+        }
+        assert_eq!(count, 3 * 24, "no chart of the reference: each swatch has its color");
+        let texts = built.panel.marks.iter().filter_map(|mark| match &mark.shape {
+            Shape::Text { at, text, anchor, size, .. } => Some((text.clone(), text_area(text, *size, *at, *anchor))),
+            _ => None,
+        });
+        let texts: Vec<_> = texts.collect();
+        for (index, (words, area)) in texts.iter().enumerate() {
+            assert!(area.max[0] <= size[0] && area.min[0] >= 0.0, "{words} is cut");
+            let other = texts[..index].iter().find(|(_, other)| area.overlaps(other));
+            assert!(other.is_none(), "{words} touches {other:?}");
+        }
+    });
+}
+
+#[test]
+fn as_they_are_outputs_do_not_speak_of_differences_and_exaggerated_they_do_but_numbers_stay() {
+    let all = [Exaggeration::One, Exaggeration::Ten].map(|to| {
+        with(&exaggerated(to), |scene| {
+            [&chromaticity::KIND, &swatches::KIND, &KIND].map(|kind| {
+                let figure = kind.figure(scene, &FigureLook::default(), FigureRoom::default()).unwrap();
+                let words = |mark: &chromascope_figure::Mark| mark.name.contains("differences ×10");
+                let said =
+                    figure.panels.iter().any(|panel| panel.note == "differences ×10" || panel.marks.iter().any(words));
+                (said, figure.caption.contains("Differences ×10"), figure.table.to_csv())
+            })
+        })
+    });
+    for (plain, large) in all[0].iter().zip(&all[1]) {
+        assert_eq!((plain.0, plain.1), (false, false));
+        assert_eq!((large.0, large.1), (true, true));
+        assert_eq!(plain.2, large.2, "numbers are never multiplied");
+    }
+}
+
+#[test]
+fn drawn_patches_are_the_reference_and_so_many_times_the_difference() {
+    let document = exaggerated(Exaggeration::Three);
+    with(&document, |scene| {
+        let of = |kind, name: &str| scene.patch_colors(kind, name).unwrap();
+        let reference = of(SetKind::Observer, &document.reference);
+        let (own, drawn) =
+            (of(SetKind::Camera, "Kodak DCS200"), scene.drawn_patch_colors(SetKind::Camera, "Kodak DCS200"));
+        for ((own, drawn), reference) in own.iter().zip(drawn.unwrap()).zip(&reference) {
+            let [own_uv, drawn_uv, from] = [own.uv, drawn.uv, reference.uv].map(Option::unwrap);
+            assert!((drawn_uv.u - from.u - 3.0 * (own_uv.u - from.u)).abs() < 1e-12);
+            assert!((drawn_uv.v - from.v - 3.0 * (own_uv.v - from.v)).abs() < 1e-12);
+            let back = drawn.xy.unwrap().uv_prime().unwrap();
+            assert!((back.u - drawn_uv.u).abs() < 1e-12 && (back.v - drawn_uv.v).abs() < 1e-12);
+            assert_eq!((drawn.xyz, drawn.lab), (own.xyz, own.lab), "numbers stay");
+        }
+        let unmoved = scene.drawn_patch_colors(SetKind::Observer, &document.reference).unwrap();
+        assert_eq!(unmoved, reference);
+    });
+}
+
+#[test]
+fn the_exaggeration_is_kept_in_sessions_and_left_out_as_it_is_by_default() {
+    use chromascope::document::session;
+    let json = |document: &Document| session::to_json(document).unwrap();
+    assert!(!json(&Document::colorimetry()).contains("exaggeration"));
+    let document = exaggerated(Exaggeration::Ten);
+    assert_eq!(session::from_json(&json(&document)).unwrap().exaggeration, Exaggeration::Ten);
+}
+
+#[test]
+fn without_a_camera_the_plots_say_why_they_are_empty() {
+    let why = |document: &Document| {
+        with(document, |scene| differences::build(scene, &FigureLook::default(), [600.0, 300.0]).err())
+    };
+    let mut alone = Document::colorimetry();
+    alone.compared.truncate(1);
+    assert_eq!(why(&alone).as_deref(), Some("No camera is compared with the reference."));
+    let mut hidden = Document::colorimetry();
+    hidden.compared.iter_mut().skip(1).for_each(|one| one.visible = false);
+    assert_eq!(why(&hidden).as_deref(), Some("All cameras are hidden."));
+    let mut apart = Document::colorimetry();
+    apart.set_transform(TransformChoice::Paper);
+    assert!(why(&apart).unwrap().contains("differ by construction"));
+}
+
+/// A second way: the solver of correlated color temperatures, on the blackbody locus of CIE 1931, finds the same.
+#[test]
+fn offsets_of_loci_agree_with_the_cct_of_each_point() {
+    with(&Document::colorimetry(), |scene| {
+        let observer = scene.sensor(SetKind::Observer, "CIE 1931 2°").unwrap();
+        let query = NearestBlackBodyQuery { observer, constants: RadiationConstants::Paper };
+        let ohno = scene.results.ask(&query);
+        let ohno = (*ohno).as_ref().unwrap();
+        let rendering = |kind, name: &str| scene.rendering_of(kind, name).unwrap();
+        let reference = rendering(SetKind::Observer, "CIE 1931 2°");
+        let mut compared = 0;
+        for camera in ["Canon EOS 5D Mark II", "Nikon D70 (A.M.P.A.S.)", "Kodak DCS200"] {
+            let (temperatures, constants) = (Scene::locus_temperatures().unwrap(), RadiationConstants::Paper);
+            let locus = LocusQuery { rendering: rendering(SetKind::Camera, camera), temperatures, constants };
+            let offsets = scene.results.ask(&LocusDeviationsQuery { locus, reference: reference.clone() });
+            let points = &scene.locus(SetKind::Camera, camera).unwrap().points;
+            for (point, (temperature, offset)) in points.iter().zip((*offsets).as_ref().unwrap()) {
+                let Some((along, duv)) = offset.and_then(|offset| offset.cct_error_k.zip(offset.duv)) else { continue };
+                let Ok(cct) = ohno.cct(point.uv.unwrap().uv60()) else { continue };
+                let kelvin = temperature.get() + along;
+                assert!((duv - cct.duv).abs() < 1e-7, "{camera} {kelvin}: {duv} {}", cct.duv);
+                assert!(
+                    (kelvin / cct.temperature.get() - 1.0).abs() < 1e-5,
+                    "{camera} {kelvin}: {:?}",
+                    cct.temperature
+                );
+                compared += 1;
+            }
+        }
+        assert!(compared > 400, "{compared}");
+    });
+}
