@@ -28,6 +28,7 @@ const CORE_LAYERS: &[&str] = &[
     "rendition",
     "camera",
     "metamers",
+    "recovery",
     "data",
     "reflectance",
     "scene",

@@ -22,6 +22,7 @@ mod metamers;
 mod metrics;
 mod query;
 mod recorded;
+mod recovery;
 mod reflectance;
 mod render;
 mod rendition;

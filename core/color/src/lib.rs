@@ -13,6 +13,7 @@
 //! camera::locus_table        blackbodies → xy, for very many temperatures
 //! camera::quality            Vora, Luther, metamerism index, noise      feature `fits`
 //! metamers                   pairs that a camera confuses
+//! recovery                   recorded values → sensitivities with their covariance
 //! camera::batch              ∫ C S L dλ for very many S and C
 //! ```
 //!
@@ -47,6 +48,7 @@ pub mod data;
 pub mod light;
 pub mod metamers;
 pub mod patch_set;
+pub mod recovery;
 pub mod rendition;
 pub mod spectral;
 pub mod units;

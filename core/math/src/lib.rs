@@ -6,6 +6,7 @@
 pub mod array;
 pub mod cbrt;
 pub mod chebyshev;
+pub mod dense;
 pub mod dot;
 pub mod double;
 pub mod exp;

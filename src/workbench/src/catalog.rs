@@ -11,6 +11,7 @@ pub mod likeness;
 pub mod load;
 pub mod meshes;
 pub mod names;
+pub mod narrow_bands;
 pub mod opened;
 pub mod recorded;
 pub mod recorded_store;

@@ -16,6 +16,7 @@ mod locus;
 mod matrix;
 mod outputs;
 mod patches;
+mod recover;
 mod render;
 mod report;
 mod request;
@@ -60,6 +61,7 @@ commands! {
     Report(report::ReportArguments) => report::run,
     Render(render::arguments::RenderArguments) => render::run,
     Identify(identify::IdentifyArguments) => identify::run,
+    Recover(recover::RecoverArguments) => recover::run,
     Inspect(inspect::InspectArguments) => inspect::run,
     Bench(bench::BenchArguments) => bench::run,
     List(list::ListArguments) => list::run,

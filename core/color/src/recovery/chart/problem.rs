@@ -1,0 +1,316 @@
+//! The model of recorded patches with its unknowns, and their most probable values.
+//!
+//! Unknowns in a row: curves | ln b of each patch | ln g of each channel | f of each channel | t of each mode.
+
+use std::ops::Range;
+
+use super::Shot;
+use crate::math::dense::{Cholesky, Matrix, bounded_minimum, times};
+use crate::recovery::prior::Prior;
+use crate::spectral::grid::{COUNT, STEP_NM};
+use crate::spectral::{GridSpectrum, Quantity, SpectralDistribution};
+
+/// Bounds of glare.
+const GLARE: [f64; 2] = [0.0, 0.03];
+/// Mean and standard deviation of glare.
+const GLARE_PRIOR: [f64; 2] = [0.005, 0.01];
+/// Standard deviation of logarithms that nothing is known about.
+const FREE: f64 = 10.0;
+/// Smallest and first spread of the logarithm of brightness.
+const EVENNESS: [f64; 2] = [1e-3, 0.1];
+const ROUNDS: usize = 30;
+
+pub(super) struct Problem {
+    sites: usize,
+    patches: Vec<PatchKernels>,
+    values: Vec<Value>,
+    /// Patches of each shot.
+    shots: Vec<Range<usize>>,
+    modes: usize,
+}
+
+/// Derivatives of a patch's integrals by the samples of a curve.
+struct PatchKernels {
+    own: Vec<f64>,
+    white: Vec<f64>,
+    /// Place of a mode among all, and its derivatives.
+    modes: Vec<(usize, Vec<f64>)>,
+}
+
+struct Value {
+    patch: usize,
+    channel: usize,
+    recorded: f64,
+    deviation: f64,
+}
+
+pub(super) struct Solution {
+    pub(super) x: Vec<f64>,
+    /// Inverse of the Hessian.
+    pub(super) inverse: Matrix,
+    pub(super) unevenness: f64,
+    pub(super) noise_ratio: f64,
+    pub(super) log_posterior: f64,
+}
+
+/// One value's modeled share and its derivatives by all unknowns that it depends on.
+struct Modeled {
+    value: f64,
+    slopes: Vec<(usize, f64)>,
+}
+
+impl Problem {
+    pub(super) fn new(wavelengths_nm: &[f64], shots: &[Shot]) -> Self {
+        let basis = basis(wavelengths_nm);
+        let kernel = |radiance: &[f64; COUNT], by: f64| -> Vec<f64> {
+            basis.iter().map(|site| site.iter().zip(radiance).map(|(a, b)| a * b).sum::<f64>() * by).collect()
+        };
+        let mut problem =
+            Self { sites: wavelengths_nm.len(), patches: Vec::new(), values: Vec::new(), shots: Vec::new(), modes: 0 };
+        for shot in shots {
+            let first = problem.patches.len();
+            let brightest =
+                |patch: &&crate::camera::recorded::RecordedPatch| patch.radiance.values().iter().sum::<f64>();
+            let white = shot.patches.iter().max_by(|a, b| brightest(a).total_cmp(&brightest(b)));
+            let scale = white.map_or(1.0, |white| 1.0 / brightest(&white).max(f64::MIN_POSITIVE));
+            let white = white.map_or_else(Vec::new, |white| kernel(white.radiance.values(), scale));
+            for (patch, noise) in shot.patches.iter().zip(&shot.noise) {
+                let drifted = |drift: &GridSpectrum| kernel(patch.radiance.times(drift).values(), scale);
+                let modes = shot.drifts.iter().enumerate().map(|(k, drift)| (problem.modes + k, drifted(drift)));
+                let kernels = PatchKernels {
+                    own: kernel(patch.radiance.values(), scale),
+                    white: white.clone(),
+                    modes: modes.collect(),
+                };
+                for (channel, (signal, deviation)) in patch.rgb.iter().zip(noise).enumerate() {
+                    if let (Ok(recorded), true) = (signal.value(), *deviation > 0.0) {
+                        let patch = problem.patches.len();
+                        problem.values.push(Value { patch, channel, recorded, deviation: *deviation });
+                    }
+                }
+                problem.patches.push(kernels);
+            }
+            problem.shots.push(first..problem.patches.len());
+            problem.modes += shot.drifts.len();
+        }
+        problem
+    }
+
+    fn bright(&self) -> usize {
+        3 * self.sites
+    }
+
+    pub(super) fn gains(&self) -> [usize; 3] {
+        [0, 1, 2].map(|c| self.bright() + self.patches.len() + c)
+    }
+
+    pub(super) fn glare(&self) -> [usize; 3] {
+        self.gains().map(|at| at + 3)
+    }
+
+    pub(super) fn lights(&self) -> Range<usize> {
+        let first = self.glare()[2] + 1;
+        first..first + self.modes
+    }
+
+    fn logs(&self, x: &[f64], shot: &Range<usize>) -> Vec<f64> {
+        x[self.bright() + shot.start..self.bright() + shot.end].to_vec()
+    }
+
+    pub(super) fn brightness(&self, x: &[f64]) -> Vec<Vec<f64>> {
+        let of = |shot: &Range<usize>| {
+            let logs = self.logs(x, shot);
+            let mean = logs.iter().sum::<f64>() / logs.len().max(1) as f64;
+            logs.iter().map(|log| (log - mean).exp()).collect()
+        };
+        self.shots.iter().map(of).collect()
+    }
+
+    /// Recorded over modeled, less 1.
+    pub(super) fn residuals(&self, x: &[f64]) -> Vec<Vec<[Option<f64>; 3]>> {
+        let mut all = vec![[None; 3]; self.patches.len()];
+        for value in &self.values {
+            all[value.patch][value.channel] = Some(value.recorded / self.modeled(x, value).value - 1.0);
+        }
+        self.shots.iter().map(|shot| all[shot.clone()].to_vec()).collect()
+    }
+
+    fn modeled(&self, x: &[f64], value: &Value) -> Modeled {
+        let kernels = &self.patches[value.patch];
+        let first = value.channel * self.sites;
+        let curve = &x[first..first + self.sites];
+        let dot = |kernel: &[f64]| kernel.iter().zip(curve).map(|(a, c)| a * c).sum::<f64>();
+        let (gain_at, glare_at) = (self.gains()[value.channel], self.glare()[value.channel]);
+        let [gain, bright] = [gain_at, self.bright() + value.patch].map(|at| x[at].exp());
+        let shot = self.shots.iter().find(|shot| shot.contains(&value.patch)).cloned().unwrap_or_default();
+        let share = 1.0 / shot.len().max(1) as f64;
+        let mean = (self.logs(x, &shot).iter().sum::<f64>() * share).exp();
+        let t = |mode: usize| x[self.lights().start + mode];
+        let mut kernel = kernels.own.clone();
+        for (mode, drift) in &kernels.modes {
+            kernel.iter_mut().zip(drift).for_each(|(own, drift)| *own += t(*mode) * drift);
+        }
+        let (own, white) = (gain * bright * dot(&kernel), gain * mean * dot(&kernels.white));
+        let glare = x[glare_at] * gain * mean;
+        let mut slopes = Vec::with_capacity(self.sites + 3 + self.modes);
+        let by_curve = kernel.iter().zip(&kernels.white).map(|(own, white)| gain * bright * own + glare * white);
+        slopes.extend(by_curve.enumerate().map(|(i, slope)| (first + i, slope)));
+        let modeled = own + x[glare_at] * white;
+        slopes.extend([(self.bright() + value.patch, own), (gain_at, modeled), (glare_at, white)]);
+        slopes.extend(shot.map(|patch| (self.bright() + patch, share * x[glare_at] * white)));
+        let modes = kernels.modes.iter();
+        slopes.extend(modes.map(|(mode, drift)| (self.lights().start + mode, gain * bright * dot(drift))));
+        Modeled { value: modeled, slopes }
+    }
+
+    /// First values: the prior's mean, with the gains and brightnesses of two-way means of the logarithms.
+    fn start(&self, prior: &Prior) -> Vec<f64> {
+        let mut x = prior.mean.clone();
+        x.resize(self.lights().end, 0.0);
+        for at in self.glare() {
+            x[at] = GLARE_PRIOR[0];
+        }
+        let logs: Vec<f64> = self.values.iter().map(|v| (v.recorded / self.modeled(&x, v).value).ln()).collect();
+        let mean = |select: &dyn Fn(&Value) -> bool, less: &dyn Fn(&Value) -> f64| {
+            let own = self.values.iter().zip(&logs).filter(|(v, log)| select(v) && log.is_finite());
+            let (sum, count) = own.fold((0.0, 0.0), |(sum, n), (v, log)| (sum + log - less(v), n + 1.0));
+            if count > 0.0 { sum / count } else { 0.0 }
+        };
+        let gains = [0, 1, 2].map(|c: usize| mean(&|v| v.channel == c, &|_| 0.0));
+        let bright: Vec<f64> =
+            (0..self.patches.len()).map(|p| mean(&|v| v.patch == p, &|v| gains[v.channel])).collect();
+        self.gains().into_iter().zip(gains).for_each(|(at, log)| x[at] = log);
+        x[self.bright()..self.bright() + bright.len()].copy_from_slice(&bright);
+        x
+    }
+
+    /// Precision of the prior of all unknowns but the brightnesses, whose spread is estimated.
+    fn precision(&self, prior: &Prior) -> Option<Matrix> {
+        let (size, curves) = (self.lights().end, prior.mean.len());
+        let mut precision = vec![0.0; size * size];
+        let of_curves = prior.precision()?;
+        let rows = precision.chunks_mut(size).zip(of_curves.chunks(curves));
+        rows.for_each(|(row, own)| row[..curves].copy_from_slice(own));
+        let mut hold = |at: usize, deviation: f64| precision[at * (size + 1)] = deviation.powi(-2);
+        self.gains().into_iter().for_each(|at| hold(at, FREE));
+        self.glare().into_iter().for_each(|at| hold(at, GLARE_PRIOR[1]));
+        self.lights().for_each(|at| hold(at, 1.0));
+        Some(precision)
+    }
+
+    /// `(I − J/n)/τ² + J/n/10²` for the n brightnesses of each shot, J of ones: only their mean, the exposure, is free.
+    fn set_evenness(&self, precision: &mut [f64], spread: f64) {
+        let size = self.lights().end;
+        for shot in &self.shots {
+            let share = 1.0 / shot.len().max(1) as f64;
+            for (i, j) in shot.clone().flat_map(|i| shot.clone().map(move |j| (i, j))) {
+                let own = if i == j { spread.powi(-2) } else { 0.0 };
+                precision[(self.bright() + i) * size + self.bright() + j] =
+                    own - share * spread.powi(-2) + share * FREE.powi(-2);
+            }
+        }
+    }
+
+    /// Step of the expectation–maximization of the spread of ln b (Dempster, Laird and Rubin 1977), taken 1.8 times as far.
+    fn spread(&self, x: &[f64], inverse: &[f64], former: f64) -> f64 {
+        let size = x.len();
+        let (mut squares, mut freedom) = (0.0, 0.0);
+        for shot in &self.shots {
+            let (logs, n) = (self.logs(x, shot), shot.len() as f64);
+            let mean = logs.iter().sum::<f64>() / n;
+            squares += logs.iter().map(|log| (log - mean).powi(2)).sum::<f64>();
+            let at = |i: usize, j: usize| inverse[(self.bright() + i) * size + self.bright() + j];
+            squares += shot.clone().map(|i| at(i, i)).sum::<f64>();
+            squares -= shot.clone().flat_map(|i| shot.clone().map(move |j| at(i, j))).sum::<f64>() / n;
+            freedom += n - 1.0;
+        }
+        let next = (squares / f64::max(freedom, 1.0)).max(1e-12).sqrt();
+        (former * (next / former).powf(1.8)).max(EVENNESS[0])
+    }
+
+    pub(super) fn solve(&self, prior: &Prior) -> Option<Solution> {
+        let mut x = self.start(prior);
+        let (size, curves) = (x.len(), prior.mean.len());
+        let center =
+            x.iter().enumerate().map(|(at, v)| if at >= self.bright() && at < self.gains()[0] { 0.0 } else { *v });
+        let center: Vec<f64> = center.collect();
+        let mut bounds = vec![[f64::NEG_INFINITY, f64::INFINITY]; size];
+        bounds[..curves].fill([0.0, f64::INFINITY]);
+        self.glare().into_iter().for_each(|at| bounds[at] = GLARE);
+        let mut precision = self.precision(prior)?;
+        let peak = prior.mean.iter().copied().fold(0.0, f64::max);
+        let mut spread = EVENNESS[1];
+        for round in 0..ROUNDS {
+            self.set_evenness(&mut precision, spread);
+            let (hessian, mut right) = self.normal_equations(&x, &precision, &center);
+            right.iter_mut().zip(times(&hessian, &x)).for_each(|(g, hx)| *g += hx);
+            let next = bounded_minimum(&hessian, &right, &bounds)?;
+            let step = |range: Range<usize>| range.map(|at| (next[at] - x[at]).abs()).fold(0.0, f64::max);
+            let (change, logs) = (step(0..curves), step(self.bright()..self.glare()[0]));
+            // Exponentials are followed in steps in which they are nearly linear.
+            let part = f64::min(1.0, 1.5 / logs.max(1e-9));
+            x.iter_mut().zip(&next).for_each(|(x, next)| *x += part * (next - *x));
+            let inverse = Cholesky::new(hessian.clone(), size)?.inverse();
+            let former = spread;
+            spread = self.spread(&x, &inverse, former);
+            let settled = change < 1e-4 * peak && logs < 1e-3 && (spread / former).ln().abs() < 0.03;
+            if settled || round + 1 == ROUNDS {
+                return Some(self.solution(x, inverse, &precision, &center, former));
+            }
+        }
+        None
+    }
+
+    /// Hessian of half the squares, and the negative gradient.
+    fn normal_equations(&self, x: &[f64], precision: &[f64], center: &[f64]) -> (Matrix, Vec<f64>) {
+        let size = x.len();
+        let mut hessian = precision.to_vec();
+        let off: Vec<f64> = center.iter().zip(x).map(|(center, x)| center - x).collect();
+        let mut right = times(precision, &off);
+        for value in &self.values {
+            let Modeled { value: modeled, slopes } = self.modeled(x, value);
+            let residual = (value.recorded - modeled) / value.deviation.powi(2);
+            let weight = value.deviation.powi(-2);
+            for (at, slope) in &slopes {
+                right[*at] += slope * residual;
+                let row = &mut hessian[at * size..][..size];
+                for (other, by) in &slopes {
+                    row[*other] += weight * slope * by;
+                }
+            }
+        }
+        (hessian, right)
+    }
+
+    fn solution(&self, x: Vec<f64>, inverse: Matrix, precision: &[f64], center: &[f64], spread: f64) -> Solution {
+        let size = x.len();
+        let residual = |value: &Value| (value.recorded - self.modeled(&x, value).value) / value.deviation;
+        let squares: f64 = self.values.iter().map(|value| residual(value).powi(2)).sum();
+        let held: f64 = precision.iter().zip(&inverse).map(|(a, b)| a * b).sum();
+        let freedom = (self.values.len() as f64 - (size as f64 - held)).max(1.0);
+        let off: Vec<f64> = x.iter().zip(center).map(|(x, center)| x - center).collect();
+        let prior: f64 = times(precision, &off).iter().zip(&off).map(|(a, b)| a * b).sum();
+        let log_posterior = -0.5 * (squares + prior);
+        let noise_ratio = (squares / freedom).sqrt();
+        Solution { x, inverse, unevenness: spread, noise_ratio, log_posterior }
+    }
+}
+
+/// Curves on the grid that are 1 at one wavelength of a table and 0 at its others, times the weights of the trapezoid rule.
+fn basis(wavelengths_nm: &[f64]) -> Vec<Vec<f64>> {
+    let one = |site: usize| {
+        let values = (0..wavelengths_nm.len()).map(|at| f64::from(u8::from(at == site))).collect();
+        let curve = SpectralDistribution::new(wavelengths_nm.to_vec(), values).ok();
+        // Sprague's interpolation without a bound at zero, which the sum of all has to have.
+        let grid = curve.map(|curve| GridSpectrum::resample(&curve, Quantity::MatchingFunction));
+        let mut grid = grid.map_or_else(|| vec![0.0; COUNT], |grid| grid.values().to_vec());
+        for value in &mut grid {
+            *value *= STEP_NM;
+        }
+        for end in [0, COUNT - 1] {
+            grid[end] *= 0.5;
+        }
+        grid
+    };
+    (0..wavelengths_nm.len()).map(one).collect()
+}

@@ -1,0 +1,120 @@
+//! Symmetric positive definite systems of some hundred unknowns, and their minima between bounds.
+
+/// Square matrix by rows.
+pub type Matrix = Vec<f64>;
+
+/// Cholesky factor: `A = Uᵀ U` with U upper triangular (Golub and Van Loan 2013, 4.2).
+#[derive(Clone, Debug)]
+pub struct Cholesky {
+    size: usize,
+    upper: Matrix,
+}
+
+impl Cholesky {
+    /// Factor of a symmetric matrix, of which the upper triangle is read; none unless it is positive definite.
+    pub fn new(mut matrix: Matrix, size: usize) -> Option<Self> {
+        for k in 0..size {
+            let (done, rest) = matrix.split_at_mut((k + 1) * size);
+            let row = &mut done[k * size..];
+            let root = Some(row[k]).filter(|pivot| *pivot > 0.0 && pivot.is_finite())?.sqrt();
+            row[k..].iter_mut().for_each(|value| *value /= root);
+            for i in k + 1..size {
+                subtract(row[i], &row[i..], &mut rest[(i - k - 1) * size + i..(i - k) * size]);
+            }
+        }
+        Some(Self { size, upper: matrix })
+    }
+
+    fn row(&self, k: usize) -> &[f64] {
+        &self.upper[k * self.size..][..self.size]
+    }
+
+    /// `A⁻¹ B` for the columns of B, which has as many rows as A.
+    #[must_use]
+    pub fn solve(&self, mut right: Vec<f64>) -> Vec<f64> {
+        let width = right.len() / self.size.max(1);
+        for k in 0..self.size {
+            let (done, rest) = right.split_at_mut((k + 1) * width);
+            let (row, own) = (self.row(k), &mut done[k * width..]);
+            for value in &mut *own {
+                *value /= row[k];
+            }
+            for i in k + 1..self.size {
+                subtract(row[i], own, &mut rest[(i - k - 1) * width..(i - k) * width]);
+            }
+        }
+        for k in (0..self.size).rev() {
+            let (done, rest) = right.split_at_mut((k + 1) * width);
+            let (row, own) = (self.row(k), &mut done[k * width..]);
+            for j in k + 1..self.size {
+                subtract(row[j], &rest[(j - k - 1) * width..(j - k) * width], own);
+            }
+            for value in own {
+                *value /= row[k];
+            }
+        }
+        right
+    }
+
+    /// `A⁻¹`.
+    #[must_use]
+    pub fn inverse(&self) -> Matrix {
+        let mut identity = vec![0.0; self.size * self.size];
+        identity.iter_mut().step_by(self.size + 1).for_each(|value| *value = 1.0);
+        self.solve(identity)
+    }
+}
+
+/// `to −= by · of`.
+fn subtract(by: f64, of: &[f64], to: &mut [f64]) {
+    if by != 0.0 {
+        to.iter_mut().zip(of).for_each(|(to, of)| *to -= by * of);
+    }
+}
+
+/// `A x`.
+pub fn times(matrix: &[f64], vector: &[f64]) -> Vec<f64> {
+    matrix.chunks(vector.len().max(1)).map(|row| row.iter().zip(vector).map(|(a, x)| a * x).sum()).collect()
+}
+
+/// Sub-matrix of some rows and columns.
+pub fn among(matrix: &[f64], size: usize, rows: &[usize], columns: &[usize]) -> Matrix {
+    rows.iter().flat_map(|row| columns.iter().map(move |column| matrix[row * size + column])).collect()
+}
+
+/// The x between bounds that minimizes `½ xᵀ A x − gᵀ x`, by an active set that exchanges all violators at once
+/// (Júdice and Pires 1994), and only the last of them where that does not settle.
+///
+/// None unless A is positive definite, or after 200 exchanges.
+pub fn bounded_minimum(a: &[f64], g: &[f64], bounds: &[[f64; 2]]) -> Option<Vec<f64>> {
+    const ALL_AT_ONCE: usize = 20;
+    const MOST: usize = 200;
+    let size = g.len();
+    let mut held: Vec<Option<f64>> = vec![None; size];
+    for round in 0..MOST {
+        let free: Vec<usize> = (0..size).filter(|at| held[*at].is_none()).collect();
+        let mut x: Vec<f64> = held.iter().map(|at| at.unwrap_or(0.0)).collect();
+        let pull = times(a, &x);
+        let right = free.iter().map(|at| g[*at] - pull[*at]).collect();
+        let found = Cholesky::new(among(a, size, &free, &free), free.len())?.solve(right);
+        free.iter().zip(found).for_each(|(at, value)| x[*at] = value);
+        let slope: Vec<f64> = times(a, &x).iter().zip(g).map(|(ax, g)| ax - g).collect();
+        let change = |at: usize| {
+            let ([low, high], rounding) = (bounds[at], 1e-9 * a[at * (size + 1)] * x[at].abs().max(1e-9));
+            match held[at] {
+                None if x[at] < low => Some(Some(low)),
+                None if x[at] > high => Some(Some(high)),
+                Some(bound) if bound == low && slope[at] < -rounding => Some(None),
+                Some(bound) if bound == high && slope[at] > rounding => Some(None),
+                _ => None,
+            }
+        };
+        let changes: Vec<(usize, Option<f64>)> = (0..size).filter_map(|at| Some((at, change(at)?))).collect();
+        if changes.is_empty() {
+            return Some(x);
+        }
+        let from = if round < ALL_AT_ONCE { 0 } else { changes.len() - 1 };
+        changes[from..].iter().for_each(|(at, to)| held[*at] = *to);
+    }
+    None
+}
