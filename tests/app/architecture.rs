@@ -108,6 +108,7 @@ fn crates_of_the_core_are_functions_of_their_arguments() {
         "core/mesh",
         "core/profile",
         "core/query",
+        "core/raw-image",
         "core/spectral-file",
         "core/spectral-image",
         "core/text",

@@ -19,6 +19,7 @@ const CRATES: &[&str] = &[
     "core/mesh/src",
     "core/profile/src",
     "core/query/src",
+    "core/raw-image/src",
     "core/render/src",
     "core/spectral-file/src",
     "core/spectral-image/src",
