@@ -14,6 +14,9 @@ use crate::error::RawImageError;
 /// Directories that are looked at: a camera's file has fewer than ten.
 const MAX_DIRECTORIES: usize = 64;
 
+/// Most values of a tag: a linearization table has 65,536, 400 megapixels in tiles of 64 × 64 pixels 97,656 offsets.
+const MAX_VALUES: u64 = 1 << 17;
+
 /// Directories of a file: the main ones in their order, then those named in `SubIFDs`.
 pub(crate) struct Directories<'a> {
     decoder: Decoder<Cursor<Cow<'a, [u8]>>>,
@@ -44,7 +47,7 @@ impl<'a> Directories<'a> {
         *decoder.inner() = Cursor::new(Cow::Borrowed(bytes));
         let mut found = Self { decoder, all: Vec::new() };
         found.walk(first)?;
-        Ok(found)
+        if found.all.is_empty() { Err(RawImageError::NotDng) } else { Ok(found) }
     }
 
     fn walk(&mut self, first: u64) -> Result<(), RawImageError> {
@@ -150,7 +153,11 @@ impl<'a> Directories<'a> {
 
     fn value(&mut self, directory: usize, tag: u16) -> Result<Option<Value>, RawImageError> {
         let mut tags = self.decoder.read_directory_tags(&self.all[directory]);
-        Ok(tags.find_tag(Tag::from_u16_exhaustive(tag))?)
+        let tag = Tag::from_u16_exhaustive(tag);
+        if tags.find_entry(tag).is_some_and(|entry| entry.count() > MAX_VALUES) {
+            return Err(tiff::TiffError::LimitsExceeded.into());
+        }
+        Ok(tags.find_tag(tag)?)
     }
 }
 

@@ -82,7 +82,8 @@ impl Layout {
             Compression::None => bytes.len() / bits * 8 + 8,
             // A sample takes at least a bit.
             Compression::LosslessJpeg => bytes.len().saturating_mul(8),
-            Compression::JpegXl => MAX_SAMPLES,
+            // Noise of a sensor keeps to far more than a byte for a thousand samples.
+            Compression::JpegXl => bytes.len().saturating_mul(1024),
         };
         if samples > most.min(MAX_SAMPLES) {
             return Err(RawImageError::Size { width, height });
