@@ -6,7 +6,7 @@ use chromascope_core_fuzz::{files, options};
 
 fn main() -> std::io::Result<()> {
     let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus");
-    for target in ["table", "table_preview", "table_readers", "table_write"] {
+    for target in ["table", "table_preview", "table_readers", "table_write", "raw"] {
         std::fs::create_dir_all(corpus.join(target))?;
     }
     let sound = files::ALL.iter().map(|(name, text)| ((*name).to_owned(), text.as_bytes().to_vec()));
@@ -21,7 +21,25 @@ fn main() -> std::io::Result<()> {
         }
         std::fs::write(corpus.join("table_write").join(&name), [&[0], plain].concat())?;
     }
-    Ok(())
+    std::fs::write(corpus.join("raw").join("mosaic"), mosaic())
+}
+
+/// A DNG of 2 × 2 pixels, whose samples are its own first four bytes.
+fn mosaic() -> Vec<u8> {
+    let entries: [[u16; 5]; 9] = [
+        [256, 3, 1, 2, 0],
+        [257, 3, 1, 2, 0],
+        [258, 3, 1, 8, 0],
+        [262, 3, 1, 32803, 0],
+        [273, 4, 1, 0, 0],
+        [279, 4, 1, 4, 0],
+        [33421, 3, 2, 2, 2],
+        [33422, 1, 4, 0x100, 0x201],
+        [50706, 1, 4, 0x401, 0],
+    ];
+    let words = [0x4949, 42, 8, 0, entries.len() as u16].into_iter();
+    let entries = entries.into_iter().flat_map(|[tag, kind, count, low, high]| [tag, kind, count, 0, low, high]);
+    words.chain(entries).chain([0; 2]).flat_map(u16::to_le_bytes).collect()
 }
 
 /// The files that the tests read, each with its name.
