@@ -65,7 +65,7 @@ impl<'a> Directories<'a> {
             };
             queue.extend(directory.next().map(|next| next.0));
             self.all.push(directory);
-            let below = self.numbers(self.all.len() - 1, tag::SUB_IFDS)?;
+            let below = self.numbers(self.all.len() - 1, tag::SUB_IFDS).ok().flatten();
             queue.extend(below.unwrap_or_default().iter().map(|&at| at as u64));
         }
         Ok(())

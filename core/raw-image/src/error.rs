@@ -1,5 +1,8 @@
 //! Reasons that bytes make no raw image.
 
+/// Remedy for what no DNG converter makes readable.
+pub(crate) const DEVELOP: &str = "develop it to a linear TIFF in camera RGB with LibRaw's `dcraw_emu -4 -T -o 0 -r 1 1 1 1` (or `dcraw` with the same options)";
+
 /// Reason that a raw image cannot be read, with field and remedy.
 #[derive(Debug, thiserror::Error)]
 #[allow(missing_docs, reason = "each variant says in its message what is wrong")]
@@ -7,7 +10,7 @@ pub enum RawImageError {
     #[error("not a DNG (no TIFF header with a DNGVersion); open a DNG, or a linear TIFF, PNG or EXR as a picture")]
     NotDng,
     #[error(
-        "{format} is not read: convert it to DNG with Adobe DNG Converter or dnglab, or to a linear TIFF in camera RGB with LibRaw's `dcraw_emu -4 -T -o 0 -r 1 1 1 1` or `dcraw` with the same options, all free of charge"
+        "{format} is not read: convert it to DNG with Adobe DNG Converter or dnglab, or {DEVELOP}, all free of charge"
     )]
     OtherRaw { format: &'static str },
     #[error("{0}; the file is damaged or incomplete, copy it again")]
@@ -20,7 +23,7 @@ pub enum RawImageError {
     Value { field: &'static str, value: String, expected: &'static str },
     #[error("{what} is not read; {remedy}")]
     Unsupported { what: &'static str, remedy: &'static str },
-    #[error("{width} × {height} pixels are more than the file holds, or than 400 megapixels; copy the file again")]
+    #[error("{width} × {height} pixels are more than the file holds, or than 400 million; copy the file again")]
     Size { width: usize, height: usize },
     #[error("the data of tile or strip {index} end early; the file is damaged or incomplete, copy it again")]
     Truncated { index: usize },

@@ -7,12 +7,11 @@ use crate::directory::{Directories, tag};
 use crate::error::{LosslessJpegError, RawImageError};
 use crate::lossless_jpeg;
 
-/// Most samples of an image: 400 megapixels, of three channels a third of that.
-const MAX_SAMPLES: usize = 400_000_000;
+/// Most pixels of an image.
+const MAX_PIXELS: usize = 400_000_000;
 
 /// Remedy for what the format allows and this reader does not read.
-const CONVERT: &str =
-    "convert the camera's file with Adobe DNG Converter (free of charge), lossless and without preview sizes";
+const CONVERT: &str = "convert the camera's file with Adobe DNG Converter (free of charge), without lossy compression";
 
 #[derive(Clone, Copy, PartialEq)]
 enum Compression {
@@ -77,7 +76,7 @@ impl Layout {
         ]) {
             *factor = tags.count(directory, tag, field)?.unwrap_or(1).clamp(1, limit);
         }
-        let samples = width.saturating_mul(height).saturating_mul(planes);
+        let pixels = width.saturating_mul(height);
         let most = match compression {
             Compression::None => bytes.len() / bits * 8 + 8,
             // A sample takes at least a bit.
@@ -85,7 +84,7 @@ impl Layout {
             // Noise of a sensor keeps to far more than a byte for a thousand samples.
             Compression::JpegXl => bytes.len().saturating_mul(1024),
         };
-        if samples > most.min(MAX_SAMPLES) {
+        if pixels > MAX_PIXELS || pixels * planes > most {
             return Err(RawImageError::Size { width, height });
         }
         let big_endian = bytes.starts_with(b"MM");
@@ -137,8 +136,9 @@ impl Layout {
                         if found != tile && frame.row > row && found / frame.row >= rows {
                             // A frame wider than its tile, as of an odd width in two components.
                             Ok(frame.samples.chunks(frame.row).flat_map(|line| &line[..row]).copied().collect())
-                        } else if found >= expected {
-                            // Frame and tile may differ in width and height: the samples are the tile's in their order.
+                        } else if found >= expected && (frame.row.is_multiple_of(row) || row.is_multiple_of(frame.row))
+                        {
+                            // The samples are the tile's in their order, whatever the rows of the frame.
                             Ok(frame.samples)
                         } else {
                             Err(LosslessJpegError::Size { found, expected })

@@ -27,8 +27,9 @@ impl Levels {
         let &[down, across] = repeat.as_slice() else {
             return Err(value("BlackLevelRepeatDim", &repeat, "two numbers"));
         };
-        if ![down, across].iter().all(|side| (1.0..=4096.0).contains(side)) {
-            return Err(value("BlackLevelRepeatDim", &repeat, "1 to 4096"));
+        // The pattern of Adobe's DNG SDK has at most 8 × 8 levels.
+        if ![down, across].iter().all(|side| (1.0..=8.0).contains(side)) {
+            return Err(value("BlackLevelRepeatDim", &repeat, "1 to 8"));
         }
         let (down, across) = ((down as usize).min(height), across as usize);
         let black = tags.numbers(directory, tag::BLACK_LEVEL)?.unwrap_or_else(|| vec![0.0]);

@@ -17,6 +17,7 @@ mod preview;
 use rayon::prelude::*;
 
 use directory::{Directories, tag};
+use error::DEVELOP;
 pub use error::{LosslessJpegError, RawImageError};
 use layout::Layout;
 use levels::Levels;
@@ -156,9 +157,8 @@ fn raw_directory(tags: &mut Directories<'_>) -> Result<usize, RawImageError> {
 fn mosaic(tags: &mut Directories<'_>, raw: usize) -> Result<Option<[[usize; 2]; 2]>, RawImageError> {
     let linear = tags.count(raw, tag::PHOTOMETRIC, "PhotometricInterpretation")? == Some(34892);
     let planes = tags.count(raw, tag::SAMPLES, "SamplesPerPixel")?.unwrap_or(1);
-    let remedy = "develop it to a linear TIFF in camera RGB";
     if planes != if linear { 3 } else { 1 } {
-        return Err(RawImageError::Unsupported { what: "a raw image of other than three colors", remedy });
+        return Err(RawImageError::Unsupported { what: "a raw image of other than three colors", remedy: DEVELOP });
     }
     if linear {
         return Ok(None);
@@ -166,10 +166,10 @@ fn mosaic(tags: &mut Directories<'_>, raw: usize) -> Result<Option<[[usize; 2]; 
     let layout = tags.count(raw, tag::CFA_LAYOUT, "CFALayout")?.unwrap_or(1);
     let repeat = tags.numbers(raw, tag::CFA_REPEAT)?.ok_or(RawImageError::Missing { field: "CFARepeatPatternDim" })?;
     if repeat == [6.0; 2] {
-        return Err(RawImageError::Unsupported { what: "a mosaic of 6 × 6 filters (X-Trans)", remedy });
+        return Err(RawImageError::Unsupported { what: "a mosaic of 6 × 6 filters (X-Trans)", remedy: DEVELOP });
     }
     if repeat != [2.0; 2] || layout != 1 {
-        return Err(RawImageError::Unsupported { what: "a mosaic of other than 2 × 2 filters", remedy });
+        return Err(RawImageError::Unsupported { what: "a mosaic of other than 2 × 2 filters", remedy: DEVELOP });
     }
     let colors = tags.numbers(raw, tag::CFA_PLANE_COLOR)?.unwrap_or_else(|| vec![0.0, 1.0, 2.0]);
     let pattern = tags.numbers(raw, tag::CFA_PATTERN)?.ok_or(RawImageError::Missing { field: "CFAPattern" })?;
@@ -179,7 +179,10 @@ fn mosaic(tags: &mut Directories<'_>, raw: usize) -> Result<Option<[[usize; 2]; 
         &[a, b, c, d] if colors == [0.0, 1.0, 2.0] && within && has(0.0) && has(1.0) && has(2.0) => {
             Ok(Some([[a, b], [c, d]].map(|row| row.map(|color| color as usize))))
         }
-        _ => Err(RawImageError::Unsupported { what: "a mosaic of filters other than red, green and blue", remedy }),
+        _ => Err(RawImageError::Unsupported {
+            what: "a mosaic of filters other than red, green and blue",
+            remedy: DEVELOP,
+        }),
     }
 }
 
