@@ -137,7 +137,7 @@ impl ChartGrid {
 }
 
 /// Homography of the unit square's corners, in the same order, onto four points (Heckbert 1989, section 2.2.3).
-fn homography([p0, p1, p2, p3]: [DVec2; 4]) -> DMat3 {
+pub(super) fn homography([p0, p1, p2, p3]: [DVec2; 4]) -> DMat3 {
     let sum = p0 - p1 + p2 - p3;
     let (d1, d2) = (p1 - p2, p3 - p2);
     let area = d1.perp_dot(d2);
