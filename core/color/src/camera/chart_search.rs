@@ -12,6 +12,8 @@ mod edges;
 mod lattice;
 mod quads;
 
+use std::collections::BTreeMap;
+
 use glam::{DMat3, DVec2, DVec3};
 
 use super::chart_grid::homography;
@@ -21,7 +23,7 @@ pub use edges::refine_chart;
 pub const CHART_SIZE: [usize; 2] = [6, 4];
 const PATCHES: usize = CHART_SIZE[0] * CHART_SIZE[1];
 /// Largest RMS of the logarithms' residuals.
-const WORST_COLOR: f64 = 0.35;
+const WORST_COLOR: f64 = 0.4;
 /// Largest share of the second best position's residual that the best may have.
 const DISTINCT: f64 = 0.75;
 /// Level, as a share of the chart's brightest patch, that is added before logarithms: noise and glare of dark patches.
@@ -62,16 +64,10 @@ pub fn find_chart(size: [usize; 2], rgb: &[[f32; 3]], expected: &[[f64; 3]]) -> 
         return None;
     }
     let pixel = |x: usize, y: usize| rgb[y * width + x].map(f64::from);
-    let quads = quads::flat_quads(size, rgb);
-    let mut best: Option<(f64, DMat3)> = None;
-    for cells in lattice::lattices(&quads) {
-        if let Some(found) = colored_window(&cells, size, pixel, expected)
-            && best.is_none_or(|(residual, _)| found.0 < residual)
-        {
-            best = Some(found);
-        }
-    }
-    let (color_residual, picture_from_cells) = best?;
+    let expected: Vec<DVec3> = expected.iter().map(|rgb| DVec3::from_array(*rgb)).collect();
+    let lattices = lattice::lattices(&quads::flat_quads(size, rgb));
+    let windows = lattices.iter().filter_map(|lattice| colored_window(lattice, size, pixel, &expected));
+    let (color_residual, picture_from_cells) = windows.min_by(|a, b| a.0.total_cmp(&b.0))?;
     let rough = FoundChart { corners: corners(picture_from_cells), fill: [0.85; 2], color_residual, edges: 0.0 };
     refine_chart(&rough, size, pixel)
 }
@@ -94,63 +90,67 @@ fn pixel_at(place: DVec2, [width, height]: [usize; 2]) -> Option<[usize; 2]> {
     inside.then(|| [place.x as usize, place.y as usize])
 }
 
-/// The window of 6 × 4 cells, either way round, whose colors fit best: their residual and the homography from the chart's cells.
+/// Part of a lattice of the chart's size, one way round.
+#[derive(Clone, Copy)]
+struct Window {
+    /// The chart's first cell.
+    first: [i32; 2],
+    /// Directions of its columns and rows.
+    right: [i32; 2],
+    down: [i32; 2],
+}
+
+impl Window {
+    /// All windows whose first cell lies between two others, after each quarter turn.
+    fn all(low: [i32; 2], high: [i32; 2]) -> impl Iterator<Item = Self> {
+        let turns = [([1, 0], [0, 1]), ([0, 1], [-1, 0]), ([-1, 0], [0, -1]), ([0, -1], [1, 0])];
+        let places = (low[1]..=high[1]).flat_map(move |y| (low[0]..=high[0]).map(move |x| [x, y]));
+        places.flat_map(move |first| turns.map(|(right, down)| Self { first, right, down }))
+    }
+
+    /// Cells of the patches in order.
+    fn cells(self) -> impl Iterator<Item = [i32; 2]> {
+        (0..PATCHES).map(move |k| {
+            let [column, row] = [(k % CHART_SIZE[0]) as i32, (k / CHART_SIZE[0]) as i32];
+            [0, 1].map(|axis: usize| self.first[axis] + column * self.right[axis] + row * self.down[axis])
+        })
+    }
+
+    /// Affine map from the chart, whose first cell is [0, 1]², to the lattice, whose cells have their middles at whole numbers.
+    fn lattice_from_chart(self) -> DMat3 {
+        let [first, right, down] = [self.first, self.right, self.down].map(lattice::point);
+        DMat3::from_cols(right.extend(0.0), down.extend(0.0), (first - (right + down) / 2.0).extend(1.0))
+    }
+}
+
+/// The window whose colors fit best, if it does so by far: residual and homography from the chart's cells.
 fn colored_window(
-    cells: &lattice::Lattice,
+    lattice: &lattice::Lattice,
     size: [usize; 2],
     pixel: impl Fn(usize, usize) -> [f64; 3],
-    expected: &[[f64; 3]],
+    expected: &[DVec3],
 ) -> Option<(f64, DMat3)> {
-    let longest = CHART_SIZE[0] as i32;
-    let low = cells.low.map(|low| low - longest);
-    let extent = [0, 1].map(|axis: usize| (cells.high[axis] + longest - low[axis]) as usize + 1);
-    let color = |index: usize| {
-        let center = DVec2::new(f64::from(low[0]), f64::from(low[1]))
-            + DVec2::new((index % extent[0]) as f64, (index / extent[0]) as f64);
-        cell_color(cells.picture_from_cells, center, size, &pixel)
-    };
-    let colors: Vec<Option<DVec3>> = (0..extent[0] * extent[1]).map(color).collect();
-    let expected: Vec<DVec3> = expected.iter().map(|rgb| DVec3::from_array(*rgb)).collect();
-    let mut fits: Vec<(f64, DMat3)> = Vec::new();
-    for turn in 0..4 {
-        // Directions of the chart's columns and rows in the lattice, after quarter turns.
-        let [right, down] = [[[1, 0], [0, 1]], [[0, 1], [-1, 0]], [[-1, 0], [0, -1]], [[0, -1], [1, 0]]][turn];
-        for start in 0..colors.len() {
-            let (x, y) = ((start % extent[0]) as i32, (start / extent[0]) as i32);
-            let at = |k: usize| {
-                let (column, row) = ((k % CHART_SIZE[0]) as i32, (k / CHART_SIZE[0]) as i32);
-                [0, 1].map(|axis: usize| [x, y][axis] + column * right[axis] + row * down[axis])
-            };
-            let last = at(PATCHES - 1);
-            if (0..2).any(|axis| last[axis] < 0 || last[axis] >= extent[axis] as i32) {
-                continue;
-            }
-            let in_lattice = |k: usize| {
-                let cell = at(k);
-                cells.cells.contains_key(&[cell[0] + low[0], cell[1] + low[1]])
-            };
-            let known = (0..PATCHES).filter(|k| in_lattice(*k)).count();
-            if known < lattice::FEWEST.max(cells.cells.len() / 2) {
-                continue;
-            }
-            let sampled: Option<Vec<DVec3>> = (0..PATCHES)
-                .map(|k| {
-                    let cell = at(k);
-                    colors[cell[1] as usize * extent[0] + cell[0] as usize]
-                })
-                .collect();
-            let Some(residual) = sampled.and_then(|sampled| color_residual(&sampled, &expected)) else { continue };
-            let axis = |direction: [i32; 2]| DVec2::new(f64::from(direction[0]), f64::from(direction[1]));
-            let origin = DVec2::new(f64::from(x + low[0]), f64::from(y + low[1])) - (axis(right) + axis(down)) / 2.0;
-            let lattice_from_chart =
-                DMat3::from_cols(axis(right).extend(0.0), axis(down).extend(0.0), origin.extend(1.0));
-            fits.push((residual, cells.picture_from_cells * lattice_from_chart));
+    let reach = CHART_SIZE[0] as i32;
+    let [low, high] = [lattice.low.map(|low| low - reach), lattice.high.map(|high| high + reach)];
+    let mut colors = BTreeMap::new();
+    let mut fits: Vec<(f64, Window)> = Vec::new();
+    for window in Window::all(low, high) {
+        let known = window.cells().filter(|cell| lattice.cells.contains_key(cell)).count();
+        if known < lattice::FEWEST.max(lattice.cells.len() / 2) {
+            continue;
         }
+        let mut color = |cell: [i32; 2]| {
+            let sampled = || cell_color(lattice.picture_from_cells, lattice::point(cell), size, &pixel);
+            *colors.entry(cell).or_insert_with(sampled)
+        };
+        let sampled: Option<Vec<DVec3>> = window.cells().map(&mut color).collect();
+        fits.extend(sampled.and_then(|sampled| Some((color_residual(&sampled, expected)?, window))));
     }
     fits.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let best = *fits.first()?;
-    let distinct = fits.get(1).is_none_or(|second| best.0 < DISTINCT * second.0);
-    (best.0 < WORST_COLOR && distinct).then_some(best)
+    let (residual, window) = *fits.first()?;
+    let distinct = fits.get(1).is_none_or(|second| residual < DISTINCT * second.0);
+    (residual < WORST_COLOR && distinct)
+        .then(|| (residual, lattice.picture_from_cells * window.lattice_from_chart()))
 }
 
 /// Median of 25 places in the middle of a cell.

@@ -47,6 +47,11 @@ pub(super) fn lattices(quads: &[Quad]) -> Vec<Lattice> {
     lattices
 }
 
+/// Middle of a cell in the lattice's coordinates.
+pub(super) fn point(cell: [i32; 2]) -> DVec2 {
+    DVec2::new(f64::from(cell[0]), f64::from(cell[1]))
+}
+
 /// Nearest quadrilateral of a size to a place, within a distance.
 fn nearest(quads: &[Quad], place: DVec2, within: f64, area: f64) -> Option<usize> {
     let candidate = |(index, quad): (usize, &Quad)| {
@@ -104,10 +109,9 @@ fn grown(seed: usize, quads: &[Quad]) -> BTreeMap<[i32; 2], usize> {
 
 /// The lattice's homography, without quadrilaterals that lie off it and with those that further cells hold.
 fn fitted(mut cells: BTreeMap<[i32; 2], usize>, quads: &[Quad]) -> Option<Lattice> {
-    let point = |cell: &[i32; 2]| DVec2::new(f64::from(cell[0]), f64::from(cell[1]));
     let mut picture_from_cells = DMat3::IDENTITY;
     for _ in 0..3 {
-        let pairs: Vec<[DVec2; 2]> = cells.iter().map(|(cell, index)| [point(cell), quads[*index].center]).collect();
+        let pairs: Vec<[DVec2; 2]> = cells.iter().map(|(cell, index)| [point(*cell), quads[*index].center]).collect();
         picture_from_cells = least_squares(&pairs)?;
         let [mut low, mut high] = [[i32::MAX; 2], [i32::MIN; 2]];
         for cell in cells.keys() {
@@ -119,8 +123,8 @@ fn fitted(mut cells: BTreeMap<[i32; 2], usize>, quads: &[Quad]) -> Option<Lattic
         for row in low[1] - 2..=high[1] + 2 {
             for column in low[0] - 2..=high[0] + 2 {
                 let cell = [column, row];
-                let place = project(picture_from_cells, point(&cell));
-                let step = project(picture_from_cells, point(&[column + 1, row])).distance(place);
+                let place = project(picture_from_cells, point(cell));
+                let step = project(picture_from_cells, point([column + 1, row])).distance(place);
                 if row.abs().max(column.abs()) <= REACH
                     && let Some(index) = nearest(quads, place, 0.15 * step, area)
                 {

@@ -3,11 +3,12 @@
 use glam::DVec2;
 
 /// Differences of logarithms, from pixel to pixel but one, below which a region is flat.
-const THRESHOLDS: [f32; 4] = [0.04, 0.08, 0.16, 0.32];
+const THRESHOLDS: [f32; 5] = [0.04, 0.08, 0.16, 0.3, 0.6];
 /// Fewest pixels of a region.
 const FEWEST_PIXELS: usize = 24;
-/// Smallest share of its quadrilateral that a region fills.
-const FULL: f64 = 0.8;
+/// Smallest share of its quadrilateral that a region's hull fills, and of the hull that its pixels fill.
+const FULL: f64 = 0.85;
+const SOLID: f64 = 0.6;
 /// Smallest ratio of two sides.
 const SLENDER: f64 = 0.35;
 
@@ -54,6 +55,7 @@ fn steepness([width, height]: [usize; 2], rgb: &[[f32; 3]]) -> Vec<f32> {
     });
     let logarithm = |pixel: &[f32; 3]| [0, 1, 2].map(|c: usize| (pixel[c].max(0.0) + floor[c]).ln());
     let logarithms: Vec<[f32; 3]> = rgb.iter().map(logarithm).collect();
+    let logarithms = blurred(&blurred(&logarithms, 1), width);
     let mut steepness = vec![f32::INFINITY; rgb.len()];
     for y in 1..height - 1 {
         for x in 1..width - 1 {
@@ -66,6 +68,16 @@ fn steepness([width, height]: [usize; 2], rgb: &[[f32; 3]]) -> Vec<f32> {
         }
     }
     steepness
+}
+
+/// Binomial means of three pixels, `step` apart.
+fn blurred(pixels: &[[f32; 3]], step: usize) -> Vec<[f32; 3]> {
+    let mut blurred = pixels.to_vec();
+    let inner = blurred.iter_mut().skip(step);
+    for ((to, before), (own, after)) in inner.zip(pixels).zip(pixels.iter().skip(step).zip(pixels.iter().skip(2 * step))) {
+        *to = [0, 1, 2].map(|c: usize| 0.25 * (before[c] + after[c]) + 0.5 * own[c]);
+    }
+    blurred
 }
 
 /// Calls with the pixels of each connected flat region that may be a patch.
@@ -97,15 +109,17 @@ fn regions([width, height]: [usize; 2], steepness: &[f32], threshold: f32, mut f
 
 /// Quadrilateral of a region, if the region fills it.
 fn quad(region: &[usize], width: usize) -> Option<Quad> {
-    let corners = circumscribed(hull(region, width))?;
-    let [a, b, c, d] = corners;
+    let hull = hull(region, width);
+    let hull_area = (0..hull.len()).map(|k| hull[k].perp_dot(hull[(k + 1) % hull.len()])).sum::<f64>() / 2.0;
+    let [a, b, c, d] = circumscribed(hull)?;
     let area = (c - a).perp_dot(d - b) / 2.0;
-    let full = region.len() as f64 / area;
+    let full = hull_area / area;
+    let solid = region.len() as f64 >= SOLID * hull_area;
     let sides = [(b - a + c - d) / 2.0, (c - b + d - a) / 2.0];
     let lengths = [a.distance(b), b.distance(c), c.distance(d), d.distance(a)];
     let (least, most) = lengths.iter().fold((f64::MAX, 0.0_f64), |(least, most), l| (least.min(*l), most.max(*l)));
     let along = (c - a) * ((b - a).perp_dot(d - b) / (c - a).perp_dot(d - b));
-    (full >= FULL && least >= SLENDER * most).then_some(Quad { center: a + along, sides, area, full })
+    (solid && full >= FULL && least >= SLENDER * most).then_some(Quad { center: a + along, sides, area, full })
 }
 
 /// Convex hull of a region's pixels, with a positive turn at each corner (Andrew 1979).
