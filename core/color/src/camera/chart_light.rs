@@ -9,7 +9,8 @@ const LEAST_REFLECTANCE: f64 = 0.15;
 /// `m_kc / (f_kc / mean_k f_kc)`, with the noise of both. None where the numbers of patches differ or a channel of the surface is dark,
 /// clipped or missing.
 pub fn evened_by_gray(patches: &[PatchMean], gray: &[PatchMean]) -> Option<Vec<PatchMean>> {
-    let usable = |patch: &PatchMean| (0..3).all(|c| patch.mean[c].is_finite() && !patch.is_dark(c, 0.0) && !patch.clipped[c]);
+    let usable =
+        |patch: &PatchMean| (0..3).all(|c| patch.mean[c].is_finite() && !patch.is_dark(c, 0.0) && !patch.clipped[c]);
     if patches.len() != gray.len() || !gray.iter().all(usable) {
         return None;
     }

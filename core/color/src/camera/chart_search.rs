@@ -149,8 +149,7 @@ fn colored_window(
     fits.sort_by(|a, b| a.0.total_cmp(&b.0));
     let (residual, window) = *fits.first()?;
     let distinct = fits.get(1).is_none_or(|second| residual < DISTINCT * second.0);
-    (residual < WORST_COLOR && distinct)
-        .then(|| (residual, lattice.picture_from_cells * window.lattice_from_chart()))
+    (residual < WORST_COLOR && distinct).then(|| (residual, lattice.picture_from_cells * window.lattice_from_chart()))
 }
 
 /// Median of 25 places in the middle of a cell.
@@ -183,11 +182,10 @@ fn color_residual(measured: &[DVec3], expected: &[DVec3]) -> Option<f64> {
         let ln = |color: &DVec3| (color.max(DVec3::ZERO) / most + FLOOR).map(chromascope_math::ln::ln);
         (most.min_element() > 0.0).then(|| colors.iter().map(ln).collect())
     };
-    let mut residuals: Vec<DVec3> = logarithms(measured)?.iter().zip(logarithms(expected)?).map(|(m, e)| m - e).collect();
+    let mut residuals: Vec<DVec3> =
+        logarithms(measured)?.iter().zip(logarithms(expected)?).map(|(m, e)| m - e).collect();
     let mean = residuals.iter().sum::<DVec3>() / PATCHES as f64;
-    let place = |k: usize| {
-        DVec2::new((k % CHART_SIZE[0]) as f64 - 2.5, (k / CHART_SIZE[0]) as f64 - 1.5)
-    };
+    let place = |k: usize| DVec2::new((k % CHART_SIZE[0]) as f64 - 2.5, (k / CHART_SIZE[0]) as f64 - 1.5);
     // On the whole grid the slopes are orthogonal to each other and to the gains.
     let sums = (0..PATCHES).fold((DVec2::ZERO, DVec2::ZERO), |(up, square), k| {
         (up + place(k) * (residuals[k] - mean).element_sum(), square + 3.0 * place(k) * place(k))

@@ -86,7 +86,7 @@ pub fn refine_chart(
 
 /// Where an edge is looked for that lies half a fill from its patch's middle: not as far as the neighbor's.
 fn near(fill: f64) -> [f64; 2] {
-    let width = (0.6 * (1.0 - fill)).clamp(0.03, 0.1) + STEP;
+    let width = (0.6 * (1.0 - fill)).clamp(0.06, 0.1) + STEP;
     [fill / 2.0 - width, fill / 2.0 + width]
 }
 

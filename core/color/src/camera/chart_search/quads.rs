@@ -74,7 +74,9 @@ fn steepness([width, height]: [usize; 2], rgb: &[[f32; 3]]) -> Vec<f32> {
 fn blurred(pixels: &[[f32; 3]], step: usize) -> Vec<[f32; 3]> {
     let mut blurred = pixels.to_vec();
     let inner = blurred.iter_mut().skip(step);
-    for ((to, before), (own, after)) in inner.zip(pixels).zip(pixels.iter().skip(step).zip(pixels.iter().skip(2 * step))) {
+    for ((to, before), (own, after)) in
+        inner.zip(pixels).zip(pixels.iter().skip(step).zip(pixels.iter().skip(2 * step)))
+    {
         *to = [0, 1, 2].map(|c: usize| 0.25 * (before[c] + after[c]) + 0.5 * own[c]);
     }
     blurred
