@@ -9,9 +9,11 @@ use super::lattice::add_row;
 use super::{CHART_SIZE, FoundChart, PATCHES, corners, pixel_at, project};
 use crate::camera::chart_grid::homography;
 
-/// Rounds of finding edges and moving the grid; in the first [`WIDE`] edges are looked for in [`RANGE`].
-const ROUNDS: usize = 5;
+/// Rounds of finding edges and moving the grid; in the first [`WIDE`] edges are looked for in [`RANGE`], after the first [`COMPRESSED`] in
+/// linear values, in which blur leaves the steepest place of an edge where it is.
+const ROUNDS: usize = 6;
 const WIDE: usize = 2;
+const COMPRESSED: usize = 3;
 /// Places along an edge, within its middle ±[`ALONG`] of a cell.
 const LINES: usize = 24;
 const ALONG: f64 = 0.3;
@@ -72,7 +74,7 @@ pub fn refine_chart(
     for round in 0..ROUNDS {
         let distance = |side: Side| {
             let window = if round < WIDE { RANGE } else { near(fill[side.axis]) };
-            Some((side, profile(side, picture_from_cells, window, size, &pixel)?.edge(white)?))
+            Some((side, profile(side, picture_from_cells, window, size, &pixel)?.edge(white, round < COMPRESSED)?))
         };
         let edges: Vec<(Side, f64)> = sides().filter_map(distance).collect();
         let (warp, count) = moved(&edges, &mut fill)?;
@@ -142,8 +144,11 @@ fn profile(
 
 impl Profile {
     /// Distance of the nearest distinct edge from the patch's middle.
-    fn edge(&self, white: DVec3) -> Option<f64> {
-        let compress = |mean: &DVec3| (mean.max(DVec3::ZERO) / (KNEE * white)).map(ln_1p);
+    fn edge(&self, white: DVec3, compressed: bool) -> Option<f64> {
+        let compress = |mean: &DVec3| {
+            let value = mean.max(DVec3::ZERO) / (KNEE * white);
+            if compressed { value.map(ln_1p) } else { value }
+        };
         let values: Vec<DVec3> = self.means.iter().map(compress).collect();
         let width = ((STEP / self.bin).round() as usize).max(1);
         let mean = |values: &[DVec3]| values.iter().sum::<DVec3>() / width as f64;

@@ -48,10 +48,11 @@ pub(super) fn flat_quads(size: [usize; 2], rgb: &[[f32; 3]]) -> Vec<Quad> {
 /// Largest change of a channel's logarithm across each pixel.
 fn steepness([width, height]: [usize; 2], rgb: &[[f32; 3]]) -> Vec<f32> {
     let mut samples: Vec<[f32; 3]> = rgb.iter().step_by(rgb.len().div_ceil(20_000)).copied().collect();
+    let middle = samples.len() / 2;
     let floor = [0, 1, 2].map(|c: usize| {
-        let middle = samples.len() / 2;
         let median = samples.select_nth_unstable_by(middle, |a, b| a[c].total_cmp(&b[c])).1[c];
-        (0.05 * median).max(1e-4)
+        let mean = samples.iter().map(|sample| sample[c]).sum::<f32>() / samples.len() as f32;
+        (0.05 * median).max(0.005 * mean).max(f32::MIN_POSITIVE)
     });
     let logarithm = |pixel: &[f32; 3]| [0, 1, 2].map(|c: usize| (pixel[c].max(0.0) + floor[c]).ln());
     let logarithms: Vec<[f32; 3]> = rgb.iter().map(logarithm).collect();
@@ -73,10 +74,8 @@ fn steepness([width, height]: [usize; 2], rgb: &[[f32; 3]]) -> Vec<f32> {
 /// Binomial means of three pixels, `step` apart.
 fn blurred(pixels: &[[f32; 3]], step: usize) -> Vec<[f32; 3]> {
     let mut blurred = pixels.to_vec();
-    let inner = blurred.iter_mut().skip(step);
-    for ((to, before), (own, after)) in
-        inner.zip(pixels).zip(pixels.iter().skip(step).zip(pixels.iter().skip(2 * step)))
-    {
+    for (to, at) in blurred.iter_mut().skip(step).zip(step..pixels.len() - step) {
+        let [before, own, after] = [pixels[at - step], pixels[at], pixels[at + step]];
         *to = [0, 1, 2].map(|c: usize| 0.25 * (before[c] + after[c]) + 0.5 * own[c]);
     }
     blurred
@@ -126,38 +125,34 @@ fn quad(region: &[usize], width: usize) -> Option<Quad> {
 
 /// Convex hull of a region's pixels, with a positive turn at each corner (Andrew 1979).
 fn hull(region: &[usize], width: usize) -> Vec<DVec2> {
-    let mut points: Vec<[usize; 2]> = region.iter().map(|at| [at / width, at % width]).collect();
-    points.sort_unstable();
-    let last = |k: usize| k + 1 == points.len() || points[k + 1][0] != points[k][0];
-    let first = |k: usize| k == 0 || points[k - 1][0] != points[k][0];
-    let mut ends: Vec<DVec2> = Vec::new();
-    for (k, [y, x]) in points.iter().enumerate() {
-        let (x, y) = (*x as f64, *y as f64);
-        if first(k) {
-            ends.extend([DVec2::new(x, y), DVec2::new(x, y + 1.0)]);
-        }
-        if last(k) {
-            ends.extend([DVec2::new(x + 1.0, y), DVec2::new(x + 1.0, y + 1.0)]);
-        }
+    let (top, bottom) = region.iter().fold((usize::MAX, 0), |(top, bottom), at| (top.min(*at), bottom.max(*at)));
+    let top = top / width;
+    let mut rows = vec![[usize::MAX, 0]; bottom / width - top + 1];
+    for at in region {
+        let [first, last] = &mut rows[at / width - top];
+        (*first, *last) = ((*first).min(at % width), (*last).max(at % width));
     }
-    ends.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    let corner = |x: usize, y: usize| DVec2::new(x as f64, y as f64);
+    let bounds = |(row, [first, last]): (usize, &[usize; 2])| {
+        let y = row + top;
+        [corner(*first, y), corner(last + 1, y), corner(*first, y + 1), corner(last + 1, y + 1)]
+    };
+    let corners: Vec<DVec2> = rows.iter().enumerate().flat_map(bounds).collect();
     let mut hull: Vec<DVec2> = Vec::new();
-    let chain = |points: &mut dyn Iterator<Item = &DVec2>, hull: &mut Vec<DVec2>| {
+    let mut chain = |points: &mut dyn Iterator<Item = &DVec2>| {
         let start = hull.len();
         for point in points {
-            while hull.len() >= start + 2 {
-                let [a, b] = [hull[hull.len() - 2], hull[hull.len() - 1]];
-                if (b - a).perp_dot(*point - b) > 0.0 {
-                    break;
-                }
+            while let [.., a, b] = hull[start..]
+                && (b - a).perp_dot(*point - b) <= 0.0
+            {
                 hull.pop();
             }
             hull.push(*point);
         }
         hull.pop();
     };
-    chain(&mut ends.iter(), &mut hull);
-    chain(&mut ends.iter().rev(), &mut hull);
+    chain(&mut corners.iter());
+    chain(&mut corners.iter().rev());
     hull
 }
 
