@@ -77,7 +77,7 @@ fn nearest(quads: &[Quad], place: DVec2, within: f64, area: f64, steps: [DVec2; 
 /// Cells reached from one quadrilateral by steps to neighbors, the nearest first.
 fn grown(seed: usize, quads: &[Quad]) -> Vec<([i32; 2], usize)> {
     let own = quads[seed];
-    // The gap is unknown: neighbors are looked for from 1.05 to 1.5 sides away.
+    // The gap is unknown: neighbors are looked for from 1.05 to 1.8 sides away.
     let step = |side: DVec2| {
         let neighbor = |stretch: f64| {
             let found = [side, -side]
@@ -85,7 +85,7 @@ fn grown(seed: usize, quads: &[Quad]) -> Vec<([i32; 2], usize)> {
             let signed = [(found[0], 1.0), (found[1], -1.0)];
             signed.into_iter().find_map(|(index, sign)| Some((quads[index?].center - own.center) * sign))
         };
-        [1.05, 1.15, 1.25, 1.35, 1.5, 1.65].into_iter().find_map(neighbor)
+        [1.05, 1.15, 1.25, 1.35, 1.5, 1.65, 1.8].into_iter().find_map(neighbor)
     };
     let (first, second) = (step(own.sides[0]), step(own.sides[1]));
     let stretch = |step: DVec2, side: DVec2| step.length() / side.length();

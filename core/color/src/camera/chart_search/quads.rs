@@ -4,8 +4,12 @@ use glam::DVec2;
 
 /// Differences of logarithms, from pixel to pixel but one, below which a region is flat.
 const THRESHOLDS: [f32; 5] = [0.04, 0.08, 0.16, 0.3, 0.6];
-/// Fewest pixels of a region.
+/// Fewest pixels of a region, and reciprocals of its smallest and largest share of the picture.
 const FEWEST_PIXELS: usize = 24;
+const SMALLEST: usize = 4000;
+const LARGEST: usize = 16;
+/// Most quadrilaterals, of which the largest are kept.
+const MOST: usize = 400;
 /// Smallest share of its quadrilateral that a region's hull fills, and of the hull that its pixels fill.
 const FULL: f64 = 0.85;
 const SOLID: f64 = 0.6;
@@ -42,6 +46,8 @@ pub(super) fn flat_quads(size: [usize; 2], rgb: &[[f32; 3]]) -> Vec<Quad> {
             kept.push(quad);
         }
     }
+    kept.sort_by(|a, b| b.area.total_cmp(&a.area));
+    kept.truncate(MOST);
     kept
 }
 
@@ -83,7 +89,7 @@ fn blurred(pixels: &[[f32; 3]], step: usize) -> Vec<[f32; 3]> {
 
 /// Calls with the pixels of each connected flat region that may be a patch.
 fn regions([width, height]: [usize; 2], steepness: &[f32], threshold: f32, mut found: impl FnMut(&[usize])) {
-    let most = width * height / 16;
+    let few = (width * height / SMALLEST).max(FEWEST_PIXELS);
     let mut seen: Vec<bool> = steepness.iter().map(|value| value.is_nan() || *value >= threshold).collect();
     let mut region = Vec::new();
     for start in 0..seen.len() {
@@ -102,7 +108,7 @@ fn regions([width, height]: [usize; 2], steepness: &[f32], threshold: f32, mut f
                 }
             }
         }
-        if (FEWEST_PIXELS..=most).contains(&region.len()) {
+        if (few..=width * height / LARGEST).contains(&region.len()) {
             found(&region);
         }
     }
