@@ -17,8 +17,8 @@ pub fn evened_by_gray(patches: &[PatchMean], gray: &[PatchMean]) -> Option<Vec<P
     let mean = [0, 1, 2].map(|c: usize| gray.iter().map(|patch| patch.mean[c]).sum::<f64>() / gray.len() as f64);
     let evened = |(patch, gray): (&PatchMean, &PatchMean)| {
         let mut evened = *patch;
-        for c in 0..3 {
-            let light = gray.mean[c] / mean[c];
+        for (c, mean) in mean.iter().enumerate() {
+            let light = gray.mean[c] / mean;
             evened.mean[c] /= light;
             evened.noise[c] = (patch.noise[c] / light).hypot(evened.mean[c] * gray.noise[c] / gray.mean[c]);
         }

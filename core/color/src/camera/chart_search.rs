@@ -87,7 +87,7 @@ fn project(homography: DMat3, point: DVec2) -> DVec2 {
 /// Pixel in which a place of the picture lies.
 fn pixel_at(place: DVec2, [width, height]: [usize; 2]) -> Option<[usize; 2]> {
     let inside = place.x >= 0.0 && place.y >= 0.0 && place.x < width as f64 && place.y < height as f64;
-    inside.then(|| [place.x as usize, place.y as usize])
+    inside.then_some([place.x as usize, place.y as usize])
 }
 
 /// Part of a lattice of the chart's size, one way round.

@@ -67,7 +67,7 @@ pub fn refine_chart(
     let mut fill = chart.fill;
     let mut agreeing = 0.0;
     let inner = sides().filter_map(|side| profile(side, picture_from_cells, [0.1, 0.3], size, &pixel));
-    let white = inner.flat_map(|profile| profile.means).fold(DVec3::ZERO, |white, mean| white.max(mean));
+    let white = inner.flat_map(|profile| profile.means).fold(DVec3::ZERO, DVec3::max);
     if white.min_element() <= 0.0 {
         return None;
     }
