@@ -20,7 +20,9 @@ use super::chart_grid::homography;
 pub use edges::refine_chart;
 
 /// Columns and rows of the chart.
-pub const CHART_SIZE: [usize; 2] = [6, 4];
+pub const CHART_SIZE: [usize; 2] = [COLUMNS as usize, ROWS as usize];
+const COLUMNS: i32 = 6;
+const ROWS: i32 = 4;
 const PATCHES: usize = CHART_SIZE[0] * CHART_SIZE[1];
 /// Largest RMS of the logarithms' residuals.
 const WORST_COLOR: f64 = 0.4;
@@ -110,10 +112,10 @@ impl Window {
 
     /// Cells of the patches in order.
     fn cells(self) -> impl Iterator<Item = [i32; 2]> {
-        (0..PATCHES).map(move |k| {
-            let [column, row] = [(k % CHART_SIZE[0]) as i32, (k / CHART_SIZE[0]) as i32];
+        let cell = move |column: i32, row: i32| {
             [0, 1].map(|axis: usize| self.first[axis] + column * self.right[axis] + row * self.down[axis])
-        })
+        };
+        (0..ROWS).flat_map(move |row| (0..COLUMNS).map(move |column| cell(column, row)))
     }
 
     /// Affine map from the chart, whose first cell is [0, 1]², to the lattice, whose cells have their middles at whole numbers.
@@ -130,8 +132,7 @@ fn colored_window(
     pixel: impl Fn(usize, usize) -> [f64; 3],
     expected: &[DVec3],
 ) -> Option<(f64, DMat3)> {
-    let reach = CHART_SIZE[0] as i32;
-    let [low, high] = [lattice.low.map(|low| low - reach), lattice.high.map(|high| high + reach)];
+    let [low, high] = [lattice.low.map(|low| low - COLUMNS), lattice.high.map(|high| high + COLUMNS)];
     let mut colors = BTreeMap::new();
     let mut fits: Vec<(f64, Window)> = Vec::new();
     for window in Window::all(low, high) {
