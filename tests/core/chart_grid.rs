@@ -1,6 +1,8 @@
 //! Patches of a chart in a picture, by the corners of its grid.
 
 use chromascope_core::camera::chart_grid::{ChartGrid, ChartGridError};
+use chromascope_core::camera::chart_light::{evened_by_gray, neutral_slope};
+use chromascope_math::random::SplitMix64;
 
 /// A picture of 6 × 4 patches in perspective: patch i has (i + 1, 2(i + 1), 3(i + 1)), everything else −1.
 fn picture(x: usize, y: usize) -> [f64; 3] {
@@ -52,4 +54,44 @@ fn corners_that_mark_no_grid_are_refused() {
     assert_eq!(grid.means([100, 90], 1e9, picture), Err(ChartGridError::Outside { corner: 2, width: 100, height: 90 }));
     let tiny = ChartGrid::new([[0.0, 0.0], [9.0, 0.0], [9.0, 6.0], [0.0, 6.0]], 6, 4).unwrap();
     assert!(matches!(tiny.means([140, 90], 1e9, picture), Err(ChartGridError::TooSmall { .. })));
+}
+
+#[test]
+fn patches_have_noise_and_shares_of_clipped_pixels() {
+    let square = [[0.0, 0.0], [120.0, 0.0], [120.0, 80.0], [0.0, 80.0]];
+    let grid = ChartGrid::new(square, 6, 4).unwrap();
+    // Twelve uniform values have a variance of 1; the light slopes by more than the noise.
+    let value = |x: usize, y: usize| {
+        let mut random = SplitMix64::new((y * 120 + x) as u64);
+        let noise = (0..12).map(|_| random.unit()).sum::<f64>() - 6.0;
+        [1000.0 + 2.0 * x as f64 + noise, if x == 5 && y == 5 { 9.0 } else { 1.0 }, f64::NAN]
+    };
+    let patches = grid.means([120, 80], 9.0, value).unwrap();
+    for (k, patch) in patches.iter().enumerate() {
+        assert_eq!(patch.pixels, 100);
+        assert!((patch.mean[0] - 1000.0 - 2.0 * (20.0 * (k % 6) as f64 + 9.5)).abs() < 0.5, "{patch:?}");
+        assert!((0.05..0.3).contains(&patch.noise[0]), "{patch:?}");
+        assert!(patch.mean[1] == 1.0 && patch.mean[2].is_nan() && !patch.is_dark(0, 990.0) && patch.is_dark(0, 1e4));
+        assert_eq!((patch.clipped_share[1], patch.clipped[1]), if k == 0 { (0.01, true) } else { (0.0, false) });
+    }
+}
+
+#[test]
+fn light_is_evened_by_gray_and_known_from_neutrals() {
+    let light = |x: usize, y: usize| 1.0 + 0.002 * x as f64 + 0.003 * y as f64;
+    let reflectances = [0.9, 0.6, 0.36, 0.2, 0.09, 0.03];
+    let measure = |patch: &dyn Fn(usize) -> f64| {
+        let grid = ChartGrid::new([[0.0, 0.0], [120.0, 0.0], [120.0, 80.0], [0.0, 80.0]], 6, 4).unwrap();
+        grid.means([120, 80], 9.0, |x, y| [1.0, 2.0, 0.5].map(|gain| gain * light(x, y) * patch(x / 20))).unwrap()
+    };
+    let (chart, gray) = (measure(&|k| reflectances[k]), measure(&|_| 0.5));
+    let evened = evened_by_gray(&chart, &gray).unwrap();
+    for (k, patch) in evened.iter().enumerate() {
+        let ratio = patch.mean[1] / evened[k / 6 * 6].mean[1];
+        assert!((ratio - reflectances[k % 6] / 0.9).abs() < 1e-12, "{patch:?}");
+    }
+    assert_eq!(evened_by_gray(&chart, &gray[1..]), None);
+    let slope = neutral_slope(&chart[18..], &reflectances).unwrap();
+    assert!((slope.slope - 0.04 / 1.24).abs() < 0.002 && slope.deviation < 0.002, "{slope:?}");
+    assert_eq!(neutral_slope(&chart[18..], &[0.1; 6]), None);
 }

@@ -10,6 +10,7 @@ mod batch;
 mod camera;
 mod channel_ratio;
 mod chart_grid;
+mod chart_search;
 mod colorimetry;
 mod correction;
 mod double;

@@ -3,14 +3,28 @@
 //! ```text
 //! (x, y, 1)ᵀ ∝ H (u, v, 1)ᵀ        H = homography of the unit square onto the four corners
 //! ```
-//! A pixel belongs to a patch if its center lies in the central part of the patch's cell; a patch's value is the mean of its pixels.
+//! A pixel belongs to a patch if its center lies in the central part of the patch's cell; a patch's value is the trimmed mean of its pixels.
+//! Of large patches, pixels an odd number of rows and columns apart are taken, so that a mosaic's colors keep their shares.
 
+use chromascope_math::quantile::quantile;
 use glam::{DMat3, DVec2, DVec3};
 
 /// Share of a cell's width and height that counts.
 pub const CENTRAL: f64 = 0.5;
 /// Fewest pixels that a mean is taken over.
 pub const FEWEST_PIXELS: usize = 4;
+/// Largest share of a patch's pixels that may be clipped: far less than what is trimmed.
+pub const CLIPPED_SHARE: f64 = 0.005;
+/// Share of the pixels that the trimmed mean leaves out at either end: dust, scratches, defective pixels.
+pub const TRIMMED: f64 = 0.1;
+/// Number of standard deviations below which a mean counts as dark.
+const DARK: f64 = 5.0;
+/// Pixels of a patch from which on not all are taken.
+const MANY_PIXELS: f64 = 40_000.0;
+/// Standard deviation of a Gaussian's 10 % trimmed mean, in that of its mean (Huber and Ronchetti 2009, table 1.1).
+const TRIMMED_SPREAD: f64 = 1.03;
+/// Standard deviation of a Gaussian by the median of differences of two: 1 / (0.6745 √2).
+const SPREAD_BY_DIFFERENCE: f64 = 1.0484;
 
 /// Reason that corners and grid mark no patches.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -48,15 +62,55 @@ pub struct ChartGrid {
     square_from_picture: DMat3,
 }
 
-/// Mean of one patch.
+/// Measurement of one patch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PatchMean {
-    /// Mean of each channel.
+    /// Mean of each channel without the lowest and the highest [`TRIMMED`] of its pixels; NaN where fewer than [`FEWEST_PIXELS`] have a value.
     pub mean: [f64; 3],
-    /// True for a channel with a pixel at or above the clipping level.
+    /// Standard deviation of that mean, from the differences of pixels next to each other: without the light's slope.
+    pub noise: [f64; 3],
+    /// Share of pixels at or above the clipping level.
+    pub clipped_share: [f64; 3],
+    /// True for a channel with more than [`CLIPPED_SHARE`] clipped.
     pub clipped: [bool; 3],
     /// Number of pixels.
     pub pixels: usize,
+}
+
+impl PatchMean {
+    /// Measurement of the pixels' values in the order of their places.
+    fn new(channels: [Vec<f64>; 3], pixels: usize, clip: f64) -> Self {
+        let mut patch =
+            Self { mean: [f64::NAN; 3], noise: [f64::NAN; 3], clipped_share: [0.0; 3], clipped: [false; 3], pixels };
+        for (c, mut values) in channels.into_iter().enumerate() {
+            let count = values.len();
+            if count < FEWEST_PIXELS {
+                continue;
+            }
+            patch.clipped_share[c] = values.iter().filter(|value| **value >= clip).count() as f64 / count as f64;
+            patch.clipped[c] = patch.clipped_share[c] > CLIPPED_SHARE;
+            let mut differences: Vec<f64> = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
+            let square = differences.iter().map(|difference| difference * difference).sum::<f64>();
+            // Values in few steps, of which most are equal, have a median of zero.
+            let spread = quantile(&mut differences, 0.5)
+                .map(|median| SPREAD_BY_DIFFERENCE * median)
+                .filter(|spread| *spread > 0.0)
+                .unwrap_or((square / (2 * count) as f64).sqrt());
+            patch.noise[c] = TRIMMED_SPREAD * spread / (count as f64).sqrt();
+            let cut = (TRIMMED * count as f64) as usize;
+            values.select_nth_unstable_by(cut, f64::total_cmp);
+            let upper = &mut values[cut..];
+            upper.select_nth_unstable_by(count - 1 - 2 * cut, f64::total_cmp);
+            let kept = &upper[..count - 2 * cut];
+            patch.mean[c] = kept.iter().sum::<f64>() / kept.len() as f64;
+        }
+        patch
+    }
+
+    /// True for a channel whose mean cannot be told from the value of no light.
+    pub fn is_dark(&self, channel: usize, black: f64) -> bool {
+        self.mean[channel] - black < DARK * self.noise[channel]
+    }
 }
 
 impl ChartGrid {
@@ -87,7 +141,7 @@ impl ChartGrid {
         self.columns * self.rows
     }
 
-    /// Means of all patches, row by row from the first corner. `pixel(x, y)` is the linear RGB of a pixel.
+    /// Means of all patches, row by row from the first corner. `pixel(x, y)` is the linear RGB of a pixel, NaN where it lacks a channel.
     ///
     /// # Errors
     /// [`ChartGridError`] where a corner lies outside the picture, or a patch has too few pixels.
@@ -103,26 +157,24 @@ impl ChartGrid {
         }
         let low = self.corners.iter().fold(DVec2::MAX, |low, p| low.min(*p)).floor();
         let high = self.corners.iter().fold(DVec2::MIN, |high, p| high.max(*p)).ceil();
-        let none = PatchMean { mean: [0.0; 3], clipped: [false; 3], pixels: 0 };
-        let mut patches = vec![none; self.patches()];
-        for y in low.y as usize..(high.y as usize).min(height) {
-            for x in low.x as usize..(high.x as usize).min(width) {
+        let [a, b, c, d] = self.corners;
+        let patch_area = ((c - a).perp_dot(d - b) / 2.0).abs() * CENTRAL * CENTRAL / self.patches() as f64;
+        let step = 2 * ((patch_area / MANY_PIXELS).sqrt() / 2.0).round() as usize + 1;
+        let mut pixels = vec![(0, [const { Vec::new() }; 3]); self.patches()];
+        for y in (low.y as usize..(high.y as usize).min(height)).step_by(step) {
+            for x in (low.x as usize..(high.x as usize).min(width)).step_by(step) {
                 let Some(patch) = self.patch_at(x as f64 + 0.5, y as f64 + 0.5) else { continue };
-                let patch = &mut patches[patch];
-                patch.pixels += 1;
-                for (c, value) in pixel(x, y).into_iter().enumerate() {
-                    patch.mean[c] += value;
-                    patch.clipped[c] |= value >= clip;
+                let (count, channels) = &mut pixels[patch];
+                *count += 1;
+                for (channel, value) in channels.iter_mut().zip(pixel(x, y)) {
+                    channel.extend(Some(value).filter(|value| !value.is_nan()));
                 }
             }
         }
-        for (index, patch) in patches.iter_mut().enumerate() {
-            if patch.pixels < FEWEST_PIXELS {
-                return Err(ChartGridError::TooSmall { patch: index + 1, pixels: patch.pixels });
-            }
-            patch.mean = patch.mean.map(|sum| sum / patch.pixels as f64);
+        if let Some((index, (pixels, _))) = pixels.iter().enumerate().find(|(_, (count, _))| *count < FEWEST_PIXELS) {
+            return Err(ChartGridError::TooSmall { patch: index + 1, pixels: *pixels });
         }
-        Ok(patches)
+        Ok(pixels.into_iter().map(|(count, channels)| PatchMean::new(channels, count, clip)).collect())
     }
 
     /// Patch in whose central part a place of the picture lies.
@@ -137,7 +189,7 @@ impl ChartGrid {
 }
 
 /// Homography of the unit square's corners, in the same order, onto four points (Heckbert 1989, section 2.2.3).
-fn homography([p0, p1, p2, p3]: [DVec2; 4]) -> DMat3 {
+pub(super) fn homography([p0, p1, p2, p3]: [DVec2; 4]) -> DMat3 {
     let sum = p0 - p1 + p2 - p3;
     let (d1, d2) = (p1 - p2, p3 - p2);
     let area = d1.perp_dot(d2);
