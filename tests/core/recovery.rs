@@ -2,4 +2,5 @@
 
 mod chart;
 mod narrow_band;
+mod profile;
 mod support;

@@ -18,6 +18,7 @@ struct Score {
     /// Share of the samples within two standard deviations.
     inside: f64,
     noise_ratio: f64,
+    unlikeness: f64,
 }
 
 const FIRST: usize = 2;
@@ -44,7 +45,14 @@ fn score(name: &str, sensor: &Sensor, library: &Library, recovery: &ChartRecover
         inside += pairs.filter(|((own, truth), sd)| (*own - scale * *truth).abs() <= 2.0 * *sd).count();
     }
     let inside = inside as f64 / (3 * (LAST - FIRST + 1)) as f64;
-    Score { name: name.to_owned(), errors, mean: of_mean, inside, noise_ratio: recovery.noise_ratio }
+    Score {
+        name: name.to_owned(),
+        errors,
+        mean: of_mean,
+        inside,
+        noise_ratio: recovery.noise_ratio,
+        unlikeness: recovery.unlikeness,
+    }
 }
 
 /// All cameras, each or each maker left out.
@@ -54,11 +62,19 @@ fn hold_out(lights: &[&str], with: Conditions, by_maker: bool) -> Vec<Score> {
     let one = |(seed, (name, sensor)): (usize, &(String, Sensor))| {
         let is_omitted = |other: &str| if by_maker { maker(other) == maker(name) } else { model(other) == model(name) };
         let library = library_without(&cameras, is_omitted);
-        let mut random = SplitMix64::new(seed as u64);
+        let mut random = SplitMix64::new(seed as u64 + std::env::var("SEED").ok().and_then(|v| v.parse::<u64>().ok()).unwrap_or(0));
         let shots: Vec<_> = lights.iter().map(|light| shot(sensor, light, with, &mut random)).collect();
-        score(name, sensor, &library, &ChartRecovery::new(&library, &shots).unwrap())
+        score(
+            name,
+            sensor,
+            &library,
+            &ChartRecovery::new(&library, &shots).unwrap_or_else(|error| panic!("{name}: {error}")),
+        )
     };
-    cameras.iter().enumerate().map(one).collect()
+    rayon::iter::ParallelIterator::collect(rayon::iter::ParallelIterator::map(
+        rayon::iter::IndexedParallelIterator::enumerate(rayon::iter::IntoParallelRefIterator::par_iter(&cameras)),
+        one,
+    ))
 }
 
 /// Median and ninth tenth of the channels' errors, mean share inside, share of cameras better than the mean.
@@ -72,6 +88,41 @@ fn summary(scores: &[Score]) -> [f64; 5] {
     let inside = scores.iter().map(|score| score.inside).sum::<f64>() / count;
     let ratio = scores.iter().map(|score| score.noise_ratio).sum::<f64>() / count;
     [at(0.5), at(0.9), inside, better, ratio]
+}
+
+#[test]
+#[ignore = "experiments"]
+#[allow(clippy::print_stdout, reason = "x")]
+fn experiments() {
+    const OHTA: &str = "charts/colorchecker_24_ohta_1997.csv";
+    const DAY: &str = "illuminants/daylight_stanford.csv";
+    let stated = std::env::var("STATED").ok().and_then(|v| v.parse().ok()).unwrap_or(0.015);
+    let pixel = Conditions { noise: 0.002, uneven: 0.05, glare: [0.004; 3], stated, ..EVEN };
+    let all: Vec<(&str, &[&str], Conditions, bool)> = vec![
+        ("D65 camera", &[D65], EVEN, false),
+        ("D65 maker", &[D65], EVEN, true),
+        ("D65+A maker", &[D65, A], EVEN, true),
+        ("pixel camera", &[D65], pixel, false),
+        ("chart maker", &[D65], Conditions { chart: Some(OHTA), ..pixel }, true),
+        ("light maker", &[D65], Conditions { light: Some(DAY), ..pixel }, true),
+        ("both maker", &[D65], Conditions { light: Some(DAY), chart: Some(OHTA), ..pixel }, true),
+        ("uneven both camera", &[D65], Conditions { light: Some(DAY), chart: Some(OHTA), uneven: 0.3, ..pixel }, false),
+    ];
+    let only = std::env::var("ONLY").unwrap_or_default();
+    for (label, lights, with, by_maker) in all.into_iter().filter(|(label, ..)| label.contains(&only)) {
+        let scores = hold_out(lights, with, by_maker);
+        let (below, unlike) =
+            (scores.iter().filter(|s| s.inside < 0.9).count(), scores.iter().filter(|s| s.unlikeness > 1.0).count());
+        println!("{label:20} {:.3?} below 90 % {below}, unlike {unlike}", summary(&scores));
+        if std::env::var("LIST").is_ok() {
+            for s in scores.iter().filter(|s| s.inside < 0.9 || s.unlikeness > 1.0) {
+                println!(
+                    "    {} {:.3?} mean {:.3?} inside {:.2} noise {:.2} unlike {:.2}",
+                    s.name, s.errors, s.mean, s.inside, s.noise_ratio, s.unlikeness
+                );
+            }
+        }
+    }
 }
 
 #[test]
