@@ -4,3 +4,4 @@ mod chart;
 mod narrow_band;
 mod profile;
 mod support;
+mod tables;

@@ -9,6 +9,7 @@ mod curves;
 mod narrow_band;
 mod prior;
 mod profile;
+mod tables;
 
 pub use chart::{ChartRecovery, RecoveryError, Shot};
 pub use check::left_out;
@@ -16,3 +17,4 @@ pub use curves::RecoveredCurves;
 pub use narrow_band::{Band, Cell, NarrowBandError, NarrowBandRecovery, NarrowBands, Pass};
 pub use prior::{Library, Prior};
 pub use profile::{FitSource, PatchFit, ShotProfile};
+pub use tables::{TableDifference, open_ends};
