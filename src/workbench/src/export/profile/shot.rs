@@ -44,7 +44,7 @@ impl ShotCorrection<'_> {
             return Ok(icc.to_bytes(version)?);
         }
         let errors = profile.fits[0][0].measured.iter().flatten().copied().collect();
-        let idt = Idt::of_matrix(matrix, profile.neutral, profile.white, errors)?;
+        let idt = Idt::from_matrix(matrix, profile.neutral, profile.white, errors)?;
         Ok(clf(self.camera, light, &idt, "fitted to recorded patches by least squares in XYZ, CAT02")?.into_bytes())
     }
 
