@@ -2,4 +2,6 @@
 
 mod chart;
 mod narrow_band;
+mod profile;
 mod support;
+mod tables;

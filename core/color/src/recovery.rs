@@ -8,9 +8,13 @@ mod check;
 mod curves;
 mod narrow_band;
 mod prior;
+mod profile;
+mod tables;
 
 pub use chart::{ChartRecovery, RecoveryError, Shot};
-pub use check::{LeftOut, left_out};
+pub use check::left_out;
 pub use curves::RecoveredCurves;
 pub use narrow_band::{Band, Cell, NarrowBandError, NarrowBandRecovery, NarrowBands, Pass};
 pub use prior::{Library, Prior};
+pub use profile::{FitSource, PatchFit, ShotProfile};
+pub use tables::{TableDifference, open_ends};

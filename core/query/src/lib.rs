@@ -12,6 +12,7 @@ pub mod loci;
 pub mod metamers;
 pub mod metrics;
 pub mod patches;
+pub mod recovery;
 pub mod render;
 
 pub use ask::{Ask, Direct, Query, Shared};
@@ -34,3 +35,4 @@ pub use patches::{
     ColorTransformSpec, FitTargetsQuery, PatchColor, PatchColorsQuery, RadianceColorsQuery, RecordedFitQuery,
     RecordedSet, RenderingQuery,
 };
+pub use recovery::{ChartMeasurement, ChartRecoveryQuery, ChartShot};

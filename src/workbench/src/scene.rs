@@ -9,6 +9,7 @@ pub mod locus;
 pub mod metrics;
 pub mod orbit;
 pub mod recorded;
+pub mod recovery;
 pub mod render;
 pub mod spectral_image;
 pub mod uncertainty;
@@ -28,6 +29,7 @@ use chromascope_core::query::{
     Ask, ColorTransformSpec, DifferenceError, Locus, LocusQuery, MonochromaticQuery, PatchColor, PatchColorsQuery,
     Query, RenderingQuery, Shared, SpectralLocusQuery, Temperatures, compare,
 };
+use chromascope_core::recovery::RecoveryError;
 use chromascope_core::reflectance::SurfaceError;
 use chromascope_core::scene::lighting::LightingError;
 use chromascope_core::spectral::{GridSpectrum, Sensor};
@@ -70,6 +72,8 @@ pub enum SceneError {
     Surface(#[from] SurfaceError),
     #[error(transparent)]
     Lighting(#[from] LightingError),
+    #[error(transparent)]
+    Recovery(#[from] RecoveryError),
 }
 
 /// Name and appearance of a compared sensor, the same in all panes.

@@ -4,6 +4,7 @@ use chromascope_core::camera::recorded::Signal;
 use chromascope_core::math::random::SplitMix64;
 use chromascope_core::recovery::{ChartRecovery, Library, RecoveryError, Shot};
 use chromascope_core::spectral::Sensor;
+use rayon::prelude::*;
 
 use super::support::{A, Conditions, D65, EVEN, cameras, library_without, maker, model, shot};
 use crate::support::light;
@@ -18,6 +19,7 @@ struct Score {
     /// Share of the samples within two standard deviations.
     inside: f64,
     noise_ratio: f64,
+    unlikeness: f64,
 }
 
 const FIRST: usize = 2;
@@ -44,8 +46,20 @@ fn score(name: &str, sensor: &Sensor, library: &Library, recovery: &ChartRecover
         inside += pairs.filter(|((own, truth), sd)| (*own - scale * *truth).abs() <= 2.0 * *sd).count();
     }
     let inside = inside as f64 / (3 * (LAST - FIRST + 1)) as f64;
-    Score { name: name.to_owned(), errors, mean: of_mean, inside, noise_ratio: recovery.noise_ratio }
+    Score {
+        name: name.to_owned(),
+        errors,
+        mean: of_mean,
+        inside,
+        noise_ratio: recovery.noise_ratio,
+        unlikeness: recovery.unlikeness,
+    }
 }
+
+const OHTA: &str = "charts/colorchecker_24_ohta_1997.csv";
+const DAYLIGHT: &str = "illuminants/daylight_stanford.csv";
+/// Pixels with little noise, shading and glare, with what the command line assumes of noise and charts.
+const PHOTOGRAPH: Conditions = Conditions { noise: 0.002, uneven: 0.05, glare: [0.004; 3], stated: 0.015, ..EVEN };
 
 /// All cameras, each or each maker left out.
 fn hold_out(lights: &[&str], with: Conditions, by_maker: bool) -> Vec<Score> {
@@ -56,9 +70,14 @@ fn hold_out(lights: &[&str], with: Conditions, by_maker: bool) -> Vec<Score> {
         let library = library_without(&cameras, is_omitted);
         let mut random = SplitMix64::new(seed as u64);
         let shots: Vec<_> = lights.iter().map(|light| shot(sensor, light, with, &mut random)).collect();
-        score(name, sensor, &library, &ChartRecovery::new(&library, &shots).unwrap())
+        score(
+            name,
+            sensor,
+            &library,
+            &ChartRecovery::new(&library, &shots).unwrap_or_else(|error| panic!("{name}: {error}")),
+        )
     };
-    cameras.iter().enumerate().map(one).collect()
+    cameras.par_iter().enumerate().map(one).collect()
 }
 
 /// Median and ninth tenth of the channels' errors, mean share inside, share of cameras better than the mean.
@@ -79,34 +98,64 @@ fn summary(scores: &[Score]) -> [f64; 5] {
 #[allow(clippy::print_stdout, reason = "the table is what a run on demand is for")]
 fn table_of_hold_outs() {
     let uneven = Conditions { uneven: 0.1, glare: [0.01, 0.005, 0.01], ..EVEN };
-    for (lights, label) in [(&[D65][..], "D65"), (&[A], "A"), (&[D65, A], "D65 and A")] {
-        for (with, how) in [(EVEN, "even"), (uneven, "uneven 10 %, glare")] {
-            for by_maker in [false, true] {
-                let scores = hold_out(lights, with, by_maker);
-                println!("{label}, {how}, maker out {by_maker}: {:.4?}", summary(&scores));
-                if lights.len() == 1 && by_maker && with.uneven == 0.0 {
-                    for s in &scores {
-                        println!(
-                            "  {} {:.3?} mean {:.3?} inside {:.2} noise {:.2}",
-                            s.name, s.errors, s.mean, s.inside, s.noise_ratio
-                        );
-                    }
-                }
+    let all: [(&str, &[&str], Conditions); 6] = [
+        ("D65, even", &[D65], EVEN),
+        ("D65, uneven 10 %, glare", &[D65], uneven),
+        ("D65 and A, even", &[D65, A], EVEN),
+        ("photograph", &[D65], PHOTOGRAPH),
+        ("photograph, other light", &[D65], Conditions { light: Some(DAYLIGHT), ..PHOTOGRAPH }),
+        ("photograph, other chart", &[D65], Conditions { chart: Some(OHTA), ..PHOTOGRAPH }),
+    ];
+    for (label, lights, with) in all {
+        for by_maker in [false, true] {
+            let scores = hold_out(lights, with, by_maker);
+            println!("{label}, maker out {by_maker}: {:.4?}", summary(&scores));
+            for s in scores.iter().filter(|s| s.unlikeness > 1.0 || s.inside < 0.9) {
+                println!(
+                    "  {} {:.3?} mean {:.3?} inside {:.2} unlike {:.2}",
+                    s.name, s.errors, s.mean, s.inside, s.unlikeness
+                );
             }
         }
     }
 }
 
-/// Limits are what was reached when this was written, rounded up: 4.5 and 7.3 %, 98 and 95 % inside.
+/// Limits are what was reached when this was written, rounded up: 4.8 and 7.0 %, 99 and 97 % inside.
 #[test]
 fn unknown_cameras_are_recovered_within_their_uncertainties() {
     let [median, _, inside, better, ratio] = summary(&hold_out(&[D65], EVEN, false));
-    assert!(median < 0.047 && inside > 0.95 && better >= 0.9, "{median} {inside} {better}");
+    assert!(median < 0.049 && inside > 0.97 && better >= 0.9, "{median} {inside} {better}");
     assert!((ratio - 1.0).abs() < 0.05, "{ratio}");
     let [one, tenth, inside, better, _] = summary(&hold_out(&[D65], EVEN, true));
-    assert!(one < 0.075 && tenth < 0.13 && inside > 0.92 && better >= 0.9, "{one} {tenth} {inside} {better}");
+    assert!(one < 0.072 && tenth < 0.125 && inside > 0.95 && better >= 0.9, "{one} {tenth} {inside} {better}");
     let [two, _, inside, ..] = summary(&hold_out(&[D65, A], EVEN, true));
-    assert!(two < one && inside > 0.92, "{two} {inside}");
+    assert!(two < one && inside > 0.95, "{two} {inside}");
+}
+
+/// A chart of another edition (in residuals up to twice the stated noise) and a measured daylight named as D65.
+#[test]
+fn uncertainties_hold_where_chart_and_light_are_not_those_named() {
+    for with in [Conditions { chart: Some(OHTA), ..PHOTOGRAPH }, Conditions { light: Some(DAYLIGHT), ..PHOTOGRAPH }] {
+        let [median, _, inside, better, _] = summary(&hold_out(&[D65], with, true));
+        assert!(median < 0.11 && inside > 0.93 && better >= 0.95, "{median} {inside} {better}");
+    }
+}
+
+/// Cameras with other filters than all others are far from the prior, and their bands are wide enough.
+#[test]
+fn cameras_unlike_the_library_are_found() {
+    let scores = hold_out(&[D65], EVEN, true);
+    let of = |name: &str| scores.iter().find(|score| score.name == name).unwrap();
+    for name in ["kodak_dcs200", "sigma_sd1_merrill_npl"] {
+        assert!(
+            of(name).unlikeness > 1.3 && of(name).inside > 0.9,
+            "{name} {} {}",
+            of(name).unlikeness,
+            of(name).inside
+        );
+    }
+    let like = scores.iter().filter(|score| score.unlikeness < 1.0).count();
+    assert!(like as f64 > 0.85 * scores.len() as f64, "{like}");
 }
 
 #[test]

@@ -56,22 +56,30 @@ pub(super) struct Conditions {
     /// Standard deviation of the logarithm of brightness.
     pub(super) uneven: f64,
     pub(super) glare: [f64; 3],
+    /// Standard deviation that is stated, relative to a value.
+    pub(super) stated: f64,
+    /// Chart that is recorded in place of the one that is named.
+    pub(super) chart: Option<&'static str>,
+    /// Light that is recorded under in place of the one that is named.
+    pub(super) light: Option<&'static str>,
 }
 
-pub(super) const EVEN: Conditions = Conditions { noise: 0.01, uneven: 0.0, glare: [0.0; 3] };
+pub(super) const EVEN: Conditions =
+    Conditions { noise: 0.01, uneven: 0.0, glare: [0.0; 3], stated: 0.01, chart: None, light: None };
 
 pub(super) fn shot(sensor: &Sensor, light: &GridSpectrum, with: Conditions, random: &mut SplitMix64) -> Shot {
-    let chart = chart();
-    let white = sensor.integrate(light.values());
+    let (chart, own_light) = (chart(), with.light.map_or_else(|| light.clone(), crate::support::light));
+    let own_chart = with.chart.map_or_else(|| chart.clone(), crate::support::patches);
+    let white = sensor.integrate(own_light.values());
     let (mut patches, mut noise) = (Vec::new(), Vec::new());
-    for patch in chart.patches() {
-        let radiance = patch.grid.times(light);
-        let (raw, bright) = (sensor.integrate(radiance.values()), (with.uneven * normal(random)).exp());
+    for (patch, own) in chart.patches().iter().zip(own_chart.patches()) {
+        let (radiance, own) = (patch.grid.times(light), own.grid.times(&own_light));
+        let (raw, bright) = (sensor.integrate(own.values()), (with.uneven * normal(random)).exp());
         let value = |c: usize| [0.6, 1.0, 0.7][c] / white[1] * (bright * raw[c] + with.glare[c] * white[c]);
         let recorded = [0, 1, 2].map(|c| value(c) * (1.0 + with.noise * normal(random)));
-        noise.push(recorded.map(|v| v * with.noise.max(1e-4)));
+        noise.push(recorded.map(|v| v * with.stated));
         let rgb = recorded.map(|v| Signal::new(v, f64::INFINITY));
         patches.push(RecordedPatch { name: patch.name.clone(), radiance, rgb });
     }
-    Shot { patches, noise, drifts: Vec::new() }
+    Shot { patches, noise, light: light.clone(), drifts: Vec::new() }
 }

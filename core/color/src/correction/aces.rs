@@ -64,6 +64,19 @@ pub struct Idt {
     pub errors: Vec<f64>,
 }
 
+impl Idt {
+    /// IDT of a matrix from balanced RGB to XYZ under a light, `XYZ_FROM_ACES⁻¹ · CAT02 · M`, with the camera RGB of a perfect diffuser and
+    /// the errors of the fit.
+    ///
+    /// # Errors
+    /// [`IdtError::NoWhite`] where the white cannot be adapted.
+    pub fn from_matrix(matrix: DMat3, raw_white: DVec3, white: Xyz, errors: Vec<f64>) -> Result<Self, IdtError> {
+        let adaptation = cat02(white, Xyz::from_vector(XYZ_FROM_ACES * DVec3::ONE)).ok_or(IdtError::NoWhite)?;
+        let balance = (raw_white.max_element() / raw_white).to_array();
+        Ok(Self { balance, matrix: XYZ_FROM_ACES.inverse() * adaptation * matrix, white_signal: 1.0, errors })
+    }
+}
+
 /// Fits the IDT of a camera for a light.
 ///
 /// ```text

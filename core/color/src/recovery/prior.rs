@@ -4,13 +4,14 @@ use crate::camera::recorded::{Freedom, RecordedFit, RecordedPatch};
 use crate::math::dense::{Cholesky, Matrix, times};
 use crate::spectral::Sensor;
 use crate::spectral::grid::{COUNT, FIRST_NM, LAST_NM};
+use crate::units::{bits, hash_by};
 
 /// Shift of each table's wavelengths, either way, in nanometers: the error of a wavelength scale, and filters unlike any of the library.
 const SHIFT_NM: f64 = 4.0;
 /// Factor of the tables' covariance, by which intervals hold for cameras of other laboratories.
 const WIDENED: f64 = 2.0;
 /// Standard deviation of the smooth term relative to the peak, and its correlation length in nanometers.
-const SMOOTH: f64 = 0.04;
+const SMOOTH: f64 = 0.05;
 const SMOOTH_NM: f64 = 20.0;
 /// Standard deviation of what neighbors do not share, relative to the peak.
 const ROUGH: f64 = 1e-3;
@@ -20,7 +21,7 @@ const SUM: f64 = 1e-3;
 const TABLE_ERROR: f64 = 0.01;
 
 /// Tables of cameras, at the wavelengths that curves are recovered at.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Library {
     wavelengths_nm: Vec<f64>,
     names: Vec<String>,
@@ -28,6 +29,8 @@ pub struct Library {
     /// Of each table as it is, shifted down and shifted up: red, green and blue in a row, each with the sum 1.
     shapes: Vec<[Vec<f64>; 3]>,
 }
+
+hash_by!(Library, |of| (of.wavelengths_nm.iter().map(|nm| bits(*nm)).collect::<Vec<_>>(), &of.names, &of.sensors));
 
 /// Gaussian distribution of red, green and blue in a row, each with the sum 1.
 #[derive(Clone, Debug)]
@@ -103,7 +106,7 @@ impl Library {
     /// Without any errors all count alike.
     ///
     /// ```text
-    /// Σ = 2 Σ_tables + (0.04 p)² exp(−Δλ² / 2 (20 nm)²) + (0.001 p)² I
+    /// Σ = 2 Σ_tables + (0.05 p)² exp(−Δλ² / 2 (20 nm)²) + (0.001 p)² I
     /// ```
     /// p = peak of the mean of a channel; each table as it is and shifted by ±4 nm; conditioned on a sum of 1.
     pub fn prior(&self, misfits: &[Option<f64>]) -> Prior {
@@ -178,6 +181,11 @@ impl Prior {
         for (row, by) in self.covariance.chunks_mut(size).zip(&gain) {
             row.iter_mut().zip(&gain).for_each(|(value, other)| *value -= by * other / total);
         }
+    }
+
+    /// Multiplies all standard deviations.
+    pub(super) fn widen(&mut self, by: f64) {
+        self.covariance.iter_mut().for_each(|value| *value *= by * by);
     }
 
     /// Inverse of the covariance; none unless it is positive definite.

@@ -16,7 +16,9 @@ use super::error::{Result, refused};
 use super::outputs;
 use super::request::{Request, say_light};
 use crate::document::start::Start;
-use crate::export::profile::{CorrectionFileQuery, CorrectionForm, CorrectionRequest, clf, has_ratio, idt_note};
+use crate::export::profile::{
+    CorrectionFileQuery, CorrectionForm, CorrectionRequest, RAWTOACES, clf, has_ratio, idt_note,
+};
 use crate::results::Results;
 use crate::scene::{Scene, SceneError};
 use crate::terminal::say;
@@ -139,7 +141,7 @@ fn written(arguments: &MatrixArguments, request: &Request, scene: &Scene<'_>) ->
         if let Some(note) = idt_note(idt) {
             say(&format!("chromascope: {note}; --white-at-one fits it there\n"));
         }
-        return Ok(clf(name, &light, idt)?.into_bytes());
+        return Ok(clf(name, &light, idt, RAWTOACES)?.into_bytes());
     }
     let request = CorrectionRequest { camera: name, model: arguments.model.as_deref(), neutral, exposure };
     let file = (*scene.results.ask(&CorrectionFileQuery::new(scene, request)?)).clone()?;

@@ -3,29 +3,26 @@
 mod chart;
 mod narrow_band;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use chromascope_core::query::Ask as _;
-use chromascope_core::recovery::{Library, RecoveredCurves};
+use chromascope_core::recovery::RecoveredCurves;
+use chromascope_measure::harness::now;
 use clap::{ArgMatches, Args, Subcommand};
 use spectral_file::write::{Content, Format, Grid, Prepared, Sheet, Trace, write};
 use spectral_file::{Covariance, Uncertainty};
 
 use super::error::{CliError, Result, refused};
 use super::inspect::written;
-use super::request::Request;
-use crate::catalog::load::SensorQuery;
-use crate::document::SetKind;
 use crate::export::spectra::maker_and_model;
-use crate::results::Results;
 
 const EXAMPLES: &str = "Examples:
   chromascope recover chart day.csv --chart \"ColorChecker 24 (BabelColor average)\" --illuminant D65 --out camera.csv
   chromascope recover chart day.csv lamp.csv --chart mine.csv --illuminant daylight --illuminant A --clip 16000
   chromascope recover narrowband pass1.csv pass2.csv --clip 16384 --out camera.json
 
---out writes the curves with their expanded uncertainties (k = 2) and NAME.cov.csv, or with the ending .json rawtoaces JSON without
-uncertainties. The table opens as any other camera: every metric's ± is then its own.";
+--out writes the curves with their expanded uncertainties (k = 2) and NAME.cov.csv, with the ending .json rawtoaces JSON, or as --format
+says; only CSV has uncertainties. The table opens as any other camera: every metric's ± is then its own. --profile writes the matrix
+that is fitted to the recorded patches; `chromascope matrix` makes profiles from the curves.";
 
 /// Spectral sensitivities of a camera, with uncertainties, from raw values of a chart or of narrow bands
 #[derive(Debug, Args)]
@@ -51,9 +48,50 @@ struct Written {
     /// Output file of the curves, .csv or .json
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
+    /// Format of the curves' file [default: by its ending, csv or rawtoaces]
+    #[arg(long, value_name = "FORMAT", value_parser = written::format(), requires = "out")]
+    format: Option<Format>,
+    /// Who measured, for the file
+    #[arg(long, value_name = "NAME")]
+    author: Option<String>,
+    /// When it was measured, for the file
+    #[arg(long, value_name = "DATE")]
+    date: Option<String>,
+    /// Light source, chart, spectroradiometer and lens, for the file
+    #[arg(long, value_name = "TEXT")]
+    instrument: Option<String>,
+    /// License of the file
+    #[arg(long, value_name = "LICENSE")]
+    license: Option<String>,
     /// Overwrites existing files
     #[arg(long)]
     force: bool,
+}
+
+impl Written {
+    /// Format of the curves' file.
+    fn format(&self) -> Result<Format> {
+        let ending = self.out.as_ref().and_then(|path| path.extension()?.to_str());
+        match (self.format, ending) {
+            (Some(format), _) => Ok(format),
+            (None, Some("json")) => Ok(Format::RawtoacesJson),
+            (None, Some("csv") | None) => Ok(Format::Csv),
+            _ => refused("--out", "name a file that ends in .csv or .json, or a --format"),
+        }
+    }
+
+    /// Who, when, with what and by what method.
+    fn provenance(&self, source: &str, method: &str, reduction: &str) -> Vec<(String, String)> {
+        let given = [
+            ("author", &self.author),
+            ("date", &self.date),
+            ("instrument", &self.instrument),
+            ("license", &self.license),
+        ];
+        let given = given.into_iter().filter_map(|(key, value)| Some((key, value.as_deref()?)));
+        let known = [("source", source), ("method", method), ("reduction", reduction)];
+        given.chain(known).map(|(key, value)| (key.to_owned(), value.to_owned())).collect()
+    }
 }
 
 pub(super) fn run(arguments: &RecoverArguments, _: &ArgMatches) -> Result<()> {
@@ -63,30 +101,10 @@ pub(super) fn run(arguments: &RecoverArguments, _: &ArgMatches) -> Result<()> {
     }
 }
 
-/// Cameras that are built in, at some wavelengths.
-fn library(request: &Request, wavelengths_nm: &[f64]) -> Result<Library> {
-    let results = Results::default();
-    let mut tables = Vec::new();
-    for entry in request.catalog.of_kind(SetKind::Camera) {
-        let sensor = (*results.ask(&SensorQuery(entry.place.clone()))).clone();
-        let sensor = sensor.map_err(|error| CliError::File(format!("{}: {error}", entry.name)))?;
-        tables.push((entry.name.clone(), (*sensor).clone()));
-    }
-    Ok(Library::new(tables, wavelengths_nm))
-}
-
-fn format(path: &Path) -> Result<Format> {
-    match path.extension().and_then(|ending| ending.to_str()) {
-        Some("json") => Ok(Format::RawtoacesJson),
-        Some("csv") => Ok(Format::Csv),
-        _ => refused("--out", "name a file that ends in .csv or .json"),
-    }
-}
-
 /// Writes the curves where they are wanted.
 fn put(curves: &RecoveredCurves, wanted: &Written, comments: &[(String, String)]) -> Result<()> {
     let Some(path) = &wanted.out else { return Ok(()) };
-    let format = format(path)?;
+    let format = wanted.format()?;
     let standard = curves.standard().map(|standard| Uncertainty { standard, coverage: 2.0 });
     let covariance = Covariance { size: 3 * curves.wavelengths_nm.len(), values: curves.covariance.clone() };
     let trace = |(name, c): (&'static str, usize)| Trace {
@@ -96,6 +114,7 @@ fn put(curves: &RecoveredCurves, wanted: &Written, comments: &[(String, String)]
         uncertainty: Some(&standard[c]),
     };
     let traces: Vec<Trace<'_>> = ["red", "green", "blue"].into_iter().zip(0..3).map(trace).collect();
+    let created = now();
     let (manufacturer, model) = maker_and_model(&wanted.title);
     let content = Content::Camera { channels: [0, 1, 2], per_photon: Some(false), manufacturer, model };
     let sheet = Sheet {
@@ -103,6 +122,7 @@ fn put(curves: &RecoveredCurves, wanted: &Written, comments: &[(String, String)]
         content,
         curves: &traces,
         covariance: Some(&covariance),
+        created: Some(&created),
         comments,
         ..Sheet::default()
     };
@@ -113,8 +133,4 @@ fn put(curves: &RecoveredCurves, wanted: &Written, comments: &[(String, String)]
     }
     let text = write(&sheet, format, Grid::Native).map_err(refuse)?;
     written::put(&wanted.title, path, (format, true), None, Some(&text))
-}
-
-fn comment(key: &str, value: impl Into<String>) -> (String, String) {
-    (key.to_owned(), value.into())
 }

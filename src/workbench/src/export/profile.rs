@@ -1,11 +1,12 @@
 //! Color corrections out of the program: text, DNG values, DCP, ICC, CLF.
 
 mod query;
+mod shot;
 
 use std::fmt::Write as _;
 
 use chromascope_core::camera::ChannelRatio;
-use chromascope_core::colorimetry::Xyz;
+use chromascope_core::colorimetry::{Xy, Xyz};
 use chromascope_core::correction::RgbTransform;
 use chromascope_core::correction::aces::{Idt, IdtError};
 use chromascope_core::correction::dng::{DngMatrices, ProfileMatrix};
@@ -20,6 +21,8 @@ use chromascope_profile::clf::Clf;
 use chromascope_profile::dcp::{Calibration, CalibrationIlluminant, Dcp};
 use chromascope_profile::icc::{D50, IccProfile, IccVersion};
 use chromascope_profile::{Matrix, ProfileError};
+
+pub use shot::ShotCorrection;
 
 pub use query::{CorrectionFileQuery, CorrectionRequest, unique_camera_model};
 
@@ -142,14 +145,8 @@ impl CorrectionFile {
 
     /// DNG camera profile; of two lights, the warmer first.
     fn dcp(&self) -> Result<Vec<u8>, CorrectionFileError> {
-        let calibration = |(light, under): &(&String, &CorrectionUnder)| {
-            let illuminant = match (exif_light(light), under.xy) {
-                (Some(code), _) => CalibrationIlluminant::Exif(code),
-                (None, xy) => xy.map(|xy| CalibrationIlluminant::Other([xy.x, xy.y]))?,
-            };
-            let dng = self.dng_matrices(under)?;
-            Some(Calibration { illuminant, color: rows(dng.color), forward: rows(dng.forward) })
-        };
+        let calibration =
+            |(light, under): &(&String, &CorrectionUnder)| calibration(light, under.xy, self.dng_matrices(under)?);
         let calibrations: Option<Vec<Calibration>> = self.warmer_first().iter().map(calibration).collect();
         let calibrations = calibrations.ok_or(CorrectionFileError::NoMatrix("DCP"))?;
         self.has_ratio()?;
@@ -197,7 +194,7 @@ impl CorrectionFile {
         let light = self.of.lights.first().map_or("", String::as_str);
         let idt = self.idt.as_ref().map_err(|error| *error)?;
         self.has_ratio()?;
-        clf(&self.of.camera, light, idt)
+        clf(&self.of.camera, light, idt, RAWTOACES)
     }
 
     /// Everything in words and aligned numbers.
@@ -305,11 +302,23 @@ fn error_table(head: &str, rows: &[(&str, Option<ErrorSummary>)], of: &PatchSet)
         .join("\n")
 }
 
-/// ACES input transform in Common LUT Format.
-pub fn clf(camera: &str, light: &str, idt: &Idt) -> Result<String, CorrectionFileError> {
+/// Calibration of a DCP file; none for a light that is neither one of EXIF's nor has a chromaticity.
+fn calibration(light: &str, xy: Option<Xy>, dng: DngMatrices) -> Option<Calibration> {
+    let illuminant = match exif_light(light) {
+        Some(code) => CalibrationIlluminant::Exif(code),
+        None => xy.map(|xy| CalibrationIlluminant::Other([xy.x, xy.y]))?,
+    };
+    Some(Calibration { illuminant, color: rows(dng.color), forward: rows(dng.forward) })
+}
+
+/// Method of ACES input transforms, in words.
+pub const RAWTOACES: &str = "as rawtoaces defines it";
+
+/// ACES input transform in Common LUT Format; `method` in words.
+pub fn clf(camera: &str, light: &str, idt: &Idt, method: &str) -> Result<String, CorrectionFileError> {
     let [r, g, b] = idt.balance;
     let mut descriptions = vec![
-        format!("ACES input device transform of {camera} for {light}, as rawtoaces defines it"),
+        format!("ACES input device transform of {camera} for {light}, {method}"),
         format!("White balance multipliers before this matrix: {r:.7} {g:.7} {b:.7}"),
     ];
     descriptions.extend(idt_note(idt));

@@ -50,6 +50,8 @@ pub(super) struct Solution {
     pub(super) inverse: Matrix,
     pub(super) unevenness: f64,
     pub(super) noise_ratio: f64,
+    /// Root of the curves' distance from the prior's mean, `(c − μ)ᵀ Σ⁻¹ (c − μ)`, by the number of parameters that the data determine.
+    pub(super) unlikeness: f64,
     pub(super) log_posterior: f64,
 }
 
@@ -211,24 +213,33 @@ impl Problem {
         }
     }
 
-    /// Step of the expectation–maximization of the spread of ln b (Dempster, Laird and Rubin 1977), taken 1.8 times as far.
-    fn spread(&self, x: &[f64], inverse: &[f64], former: f64) -> f64 {
-        let size = x.len();
-        let (mut squares, mut freedom) = (0.0, 0.0);
+    /// Spread of ln b about the means of the shots, by the squares over the number of brightnesses that the data determine (MacKay 1992).
+    fn spread(&self, x: &[f64], hessian: &Cholesky, former: f64) -> f64 {
+        let count = self.patches.len();
+        let mut columns = vec![0.0; x.len() * count];
+        (0..count).for_each(|i| columns[(self.bright() + i) * count + i] = 1.0);
+        let covariance = hessian.solve(columns);
+        let (mut squares, mut determined) = (0.0, 0.0);
         for shot in &self.shots {
             let (logs, n) = (self.logs(x, shot), shot.len() as f64);
             let mean = logs.iter().sum::<f64>() / n;
             squares += logs.iter().map(|log| (log - mean).powi(2)).sum::<f64>();
-            let at = |i: usize, j: usize| inverse[(self.bright() + i) * size + self.bright() + j];
-            squares += shot.clone().map(|i| at(i, i)).sum::<f64>();
-            squares -= shot.clone().flat_map(|i| shot.clone().map(move |j| at(i, j))).sum::<f64>() / n;
-            freedom += n - 1.0;
+            let at = |i: usize, j: usize| covariance[(self.bright() + i) * count + j];
+            let variance = shot.clone().map(|i| at(i, i)).sum::<f64>()
+                - shot.clone().flat_map(|i| shot.clone().map(move |j| at(i, j))).sum::<f64>() / n;
+            determined += n - 1.0 - variance / former.powi(2);
         }
-        let next = (squares / f64::max(freedom, 1.0)).max(1e-12).sqrt();
-        (former * (next / former).powf(1.8)).max(EVENNESS[0])
+        let next = (squares / f64::max(determined, 1e-3)).sqrt();
+        next.clamp(former / 10.0, former * 10.0).max(EVENNESS[0])
     }
 
-    pub(super) fn solve(&self, prior: &Prior) -> Option<Solution> {
+    /// Multiplies the standard deviation of all values.
+    pub(super) fn scale_noise(&mut self, by: f64) {
+        self.values.iter_mut().for_each(|value| value.deviation *= by);
+    }
+
+    /// Most probable unknowns; the search begins at those of a former solution, if any.
+    pub(super) fn solve(&self, prior: &Prior, former: Option<&Solution>) -> Option<Solution> {
         let mut x = self.start(prior);
         let (size, curves) = (x.len(), prior.mean.len());
         let center =
@@ -240,6 +251,9 @@ impl Problem {
         let mut precision = self.precision(prior)?;
         let peak = prior.mean.iter().copied().fold(0.0, f64::max);
         let mut spread = EVENNESS[1];
+        if let Some(former) = former {
+            (x, spread) = (former.x.clone(), former.unevenness);
+        }
         for round in 0..ROUNDS {
             self.set_evenness(&mut precision, spread);
             let (hessian, mut right) = self.normal_equations(&x, &precision, &center);
@@ -250,12 +264,11 @@ impl Problem {
             // Exponentials are followed in steps in which they are nearly linear.
             let part = f64::min(1.0, 1.5 / logs.max(1e-9));
             x.iter_mut().zip(&next).for_each(|(x, next)| *x += part * (next - *x));
-            let inverse = Cholesky::new(hessian.clone(), size)?.inverse();
-            let former = spread;
-            spread = self.spread(&x, &inverse, former);
+            let (root, former) = (Cholesky::new(hessian, size)?, spread);
+            spread = self.spread(&x, &root, former);
             let settled = change < 1e-4 * peak && logs < 1e-3 && (spread / former).ln().abs() < 0.03;
             if settled || round + 1 == ROUNDS {
-                return Some(self.solution(x, inverse, &precision, &center, former));
+                return Some(self.solution(x, root.inverse(), &precision, &center, (former, curves)));
             }
         }
         None
@@ -282,17 +295,31 @@ impl Problem {
         (hessian, right)
     }
 
-    fn solution(&self, x: Vec<f64>, inverse: Matrix, precision: &[f64], center: &[f64], spread: f64) -> Solution {
+    fn solution(
+        &self,
+        x: Vec<f64>,
+        inverse: Matrix,
+        precision: &[f64],
+        center: &[f64],
+        (spread, curves): (f64, usize),
+    ) -> Solution {
         let size = x.len();
         let residual = |value: &Value| (value.recorded - self.modeled(&x, value).value) / value.deviation;
         let squares: f64 = self.values.iter().map(|value| residual(value).powi(2)).sum();
         let held: f64 = precision.iter().zip(&inverse).map(|(a, b)| a * b).sum();
         let freedom = (self.values.len() as f64 - (size as f64 - held)).max(1.0);
         let off: Vec<f64> = x.iter().zip(center).map(|(x, center)| x - center).collect();
-        let prior: f64 = times(precision, &off).iter().zip(&off).map(|(a, b)| a * b).sum();
+        let pull: Vec<f64> = times(precision, &off).iter().zip(&off).map(|(a, b)| a * b).collect();
+        // The curves' share of the precision is a block of its own.
+        let of_curves =
+            |of: &[f64]| -> Vec<f64> { of.chunks(size).take(curves).flat_map(|row| row[..curves].to_vec()).collect() };
+        let undetermined: f64 = of_curves(precision).iter().zip(of_curves(&inverse)).map(|(a, b)| a * b).sum();
+        let parameters = (curves as f64 - undetermined).max(1.0);
+        let unlikeness = (pull[..curves].iter().sum::<f64>().max(0.0) / parameters).sqrt();
+        let prior: f64 = pull.iter().sum();
         let log_posterior = -0.5 * (squares + prior);
         let noise_ratio = (squares / freedom).sqrt();
-        Solution { x, inverse, unevenness: spread, noise_ratio, log_posterior }
+        Solution { x, inverse, unevenness: spread, noise_ratio, unlikeness, log_posterior }
     }
 }
 

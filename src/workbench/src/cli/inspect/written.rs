@@ -15,7 +15,7 @@ use crate::format::file_name;
 use crate::terminal::say;
 
 /// Parser of formats; that of CSV with comments has a flag of its own.
-pub(super) fn format() -> impl TypedValueParser<Value = Format> {
+pub(in crate::cli) fn format() -> impl TypedValueParser<Value = Format> {
     let all = || Format::ALL.into_iter().filter(|format| *format != Format::CommentedCsv);
     let of = move |key: String| all().find(|format| format.key() == key).unwrap_or(Format::Csv);
     PossibleValuesParser::new(all().map(Format::key)).map(of)

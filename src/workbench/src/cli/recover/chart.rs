@@ -4,31 +4,30 @@ use std::ffi::OsString;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use chromascope_core::camera::recorded::RecordedPatch;
-use chromascope_core::recovery::{ChartRecovery, LeftOut, Library, RecoveryError, Shot, left_out};
-use chromascope_core::spectral::GridSpectrum;
+use chromascope_core::query::{Ask as _, ChartMeasurement, ChartShot, ErrorSummary};
+use chromascope_core::recovery::FitSource;
 use chromascope_figure::{Cell, Column, Table};
+use chromascope_profile::icc::IccVersion;
 use clap::Args;
 use spectral_file::Values;
 
-use super::{Written, comment, library, put};
-use crate::catalog::recorded::{Levels, lit};
+use super::{Written, put};
+use crate::catalog::recorded::Levels;
 use crate::cli::arguments::values;
 use crate::cli::error::{CliError, Result, refused};
 use crate::cli::identify::recorded_table;
-use crate::cli::outputs::{check, show};
+use crate::cli::outputs::{check, show, stream};
 use crate::cli::request::Request;
+use crate::document::Light;
 use crate::document::start::Start;
-use crate::document::{CIE_1931, Light, SetKind};
+use crate::export::profile::{CorrectionForm, ShotCorrection};
 use crate::format::{display_path, fixed};
 use crate::results::Results;
-use crate::scene::Scene;
+use crate::scene::{Scene, SceneError};
 
-/// Lights that the recording is compared with, where another than the one named would explain it.
-const OTHERS: [&str; 7] = ["A", "D50", "D55", "D65", "D75", "FL2", "FL11"];
-/// Standard deviation of daylight's reciprocal temperature about the best of steps of 20, in mireds.
-const MIREDS: f64 = 15.0;
 const NEAREST: usize = 5;
+/// Light that daylight of unknown temperature is looked for from.
+const STAND_IN_K: f64 = 6500.0;
 
 #[derive(Debug, Args)]
 pub(super) struct ChartArguments {
@@ -50,9 +49,15 @@ pub(super) struct ChartArguments {
     /// Raw value from which on a channel is clipped [default: none]
     #[arg(long, value_name = "LEVEL")]
     clip: Option<f64>,
-    /// Standard deviation of a raw value in percent of it: noise, and what charts of one edition differ by
-    #[arg(long, value_name = "PERCENT", default_value_t = 1.0, value_parser = percent)]
+    /// Standard deviation of a raw value in percent of it: noise, and what charts of one edition differ by; estimated from 0.4 to 2 times this
+    #[arg(long, value_name = "PERCENT", default_value_t = 1.5, value_parser = percent)]
     noise: f64,
+    /// Profile by the matrix that is fitted to the recorded patches, .dcp (of one light or two), .icc or .clf
+    #[arg(long, value_name = "FILE")]
+    profile: Option<PathBuf>,
+    /// For dcp: the camera model as its raw files state it [default: by the table of names from --title]
+    #[arg(long, value_name = "MODEL", requires = "profile")]
+    model: Option<String>,
     #[command(flatten)]
     written: Written,
 }
@@ -69,95 +74,63 @@ pub(super) fn run(arguments: &ChartArguments) -> Result<()> {
     if arguments.illuminant.len() != 1 && arguments.illuminant.len() != arguments.files.len() {
         return refused("--illuminant", "name one light, or one for each table");
     }
-    let sites: Vec<f64> = (0..41).map(|i| 380.0 + 10.0 * f64::from(i)).collect();
-    let library = library(&request, &sites)?;
-    let file = display_path(&arguments.files[0]);
-    let refuse = |error: RecoveryError| CliError::File(format!("{file}: {error}"));
-    let mut shots = shots(&mut request, arguments, 182.0)?;
-    check(arguments.written.out.as_deref(), &request.inputs(), arguments.written.force)?;
-    let mut mired = None;
-    if arguments.illuminant.iter().any(|light| light == "daylight") {
-        let at = [90.0, 110.0, 130.0, 150.0, 170.0, 190.0, 210.0, 230.0];
-        let all: Vec<Vec<Shot>> =
-            at.iter().map(|mired| self::shots(&mut request, arguments, *mired)).collect::<Result<_>>()?;
-        let nearest = |mired: f64| at.iter().position(|own| (own - mired).abs() < 10.0).unwrap_or(0);
-        let (_, best) = ChartRecovery::under_daylight(&library, |mired| all[nearest(mired)].clone()).map_err(refuse)?;
-        (shots, mired) = (all[nearest(best)].clone(), Some(best));
-    }
-    let others = others(&request, &shots, mired.is_some())?;
-    let named = others.iter().map(|(what, shots)| (what.clone(), shots.as_slice()));
-    let recovery = ChartRecovery::against(&library, &shots, named).map_err(refuse)?;
+    let (written, form) = (&arguments.written, profile_form(arguments)?);
+    written.format()?;
+    let shots = shots(&mut request, arguments)?;
+    let outputs = written.out.as_deref().into_iter().chain(arguments.profile.as_deref());
+    check(outputs, &request.inputs(), written.force)?;
     let results = Results::default();
     let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
-    let omitted = left_out(&library, &shots, &*scene.sensor(SetKind::Observer, CIE_1931)?).map_err(refuse)?;
-    show(&text(&recovery, &library, &shots, &omitted, mired))?;
-    let lights: Vec<_> = arguments.illuminant.iter().map(|light| light.to_string_lossy()).collect();
-    let method = format!(
-        "recovered from the raw values of {} patches under {} with the library's tables as prior (chromascope recover chart); good for color, a guess where the uncertainty is large",
-        shots[0].patches.len(),
-        lights.join(", ")
-    );
-    put(&recovery.curves, &arguments.written, &[comment("source", file.clone()), comment("note", method)])
+    let files: Vec<String> = arguments.files.iter().map(|file| display_path(file)).collect();
+    let measured = (*results.ask(&scene.measured_camera(shots)?)).clone();
+    let measured = measured.map_err(|error| match error {
+        SceneError::Recovery(error) => CliError::File(format!("{}: {error}", files.join(", "))),
+        other => other.into(),
+    })?;
+    show(&text(&measured))?;
+    let lights: Vec<&str> = measured.profiles.iter().map(|(light, _)| light.as_str()).collect();
+    let method = format!("raw values of {} patches under {}", measured.shots[0].patches.len(), lights.join(", "));
+    let reduction = "joint Gaussian estimate with the library's tables as prior (chromascope recover chart); good for color, a guess where the uncertainty is large";
+    put(&measured.recovery.curves, written, &written.provenance(&files.join(", "), &method, reduction))?;
+    let (Some(path), Some(form)) = (&arguments.profile, form) else { return Ok(()) };
+    let license = written.license.as_deref().unwrap_or("the user's own");
+    let author = written.author.as_ref().map_or_else(String::new, |author| format!(" by {author}"));
+    let terms = format!("Fitted to a photograph of a chart{author}; license: {license}");
+    let (camera, model) = (written.title.as_str(), arguments.model.as_deref());
+    let correction = ShotCorrection { camera, model, terms: &terms, profiles: &measured.profiles };
+    let bytes = correction.written(form)?;
+    stream(Some(path), |out| Ok(out.write_all(&bytes)?))
 }
 
-/// The recording of each table under its light; under daylight of a reciprocal temperature where that is unknown.
-fn shots(request: &mut Request, arguments: &ChartArguments, mired: f64) -> Result<Vec<Shot>> {
+/// Form of the profile by its file's ending.
+fn profile_form(arguments: &ChartArguments) -> Result<Option<CorrectionForm>> {
+    let Some(path) = &arguments.profile else { return Ok(None) };
+    let forms = [CorrectionForm::Dcp, CorrectionForm::Icc(IccVersion::V4), CorrectionForm::Clf];
+    let ending = path.extension().and_then(|ending| ending.to_str());
+    match forms.into_iter().find(|form| Some(form.ending()) == ending) {
+        Some(form) => Ok(Some(form)),
+        None => refused("--profile", "name a file that ends in .dcp, .icc or .clf"),
+    }
+}
+
+/// The recording of each table under its light.
+fn shots(request: &mut Request, arguments: &ChartArguments) -> Result<Vec<ChartShot>> {
     let levels = Levels { black: arguments.black, clip: arguments.clip.unwrap_or(f64::INFINITY) };
     let mut shots = Vec::new();
     for (at, file) in arguments.files.iter().enumerate() {
         let light = &arguments.illuminant[at.min(arguments.illuminant.len() - 1)];
-        let mut drifts = Vec::new();
-        if light == "daylight" {
-            drifts.push(drift(request, mired)?);
-            request.document.temperature_k = 1e6 / mired;
+        let is_daylight = light == "daylight";
+        if is_daylight {
+            (request.document.light, request.document.temperature_k) = (Light::Daylight, STAND_IN_K);
         } else {
             request.set_light(light)?;
         }
-        let patches: Vec<RecordedPatch> = (*recorded_table(request, file, levels)?).clone();
-        let noise =
-            |patch: &RecordedPatch| patch.rgb.map(|signal| signal.value().unwrap_or(0.0) * arguments.noise / 100.0);
-        let noise = patches.iter().map(noise).collect();
-        shots.push(Shot { patches, noise, drifts });
-    }
-    Ok(shots)
-}
-
-/// Relative change of daylight by one standard deviation of its reciprocal temperature.
-fn drift(request: &mut Request, mired: f64) -> Result<GridSpectrum> {
-    let mut light = |mired: f64| -> Result<GridSpectrum> {
-        request.document.light = Light::Daylight;
-        request.document.temperature_k = 1e6 / mired;
+        let patches = (*recorded_table(request, file, levels)?).clone();
         let results = Results::default();
         let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
-        Ok((*scene.light()?.grid).clone())
-    };
-    let [low, high] = [light(mired - 2.0)?, light(mired + 2.0)?];
-    let mut pairs = low.values().iter().zip(high.values());
-    Ok(GridSpectrum::from_fn(|_| pairs.next().map_or(0.0, |(low, high)| MIREDS / 4.0 * (high / low).ln())))
-}
-
-/// What else the recording may be of: the chart turned, or other lights.
-fn others(request: &Request, shots: &[Shot], is_unknown: bool) -> Result<Vec<(String, Vec<Shot>)>> {
-    let turned = |shot: &Shot| {
-        let mut shot = shot.clone();
-        let values: Vec<_> = shot.patches.iter().rev().map(|patch| patch.rgb).collect();
-        shot.patches.iter_mut().zip(values).for_each(|(patch, rgb)| patch.rgb = rgb);
-        shot
-    };
-    let mut all = vec![("the chart turned by 180°".to_owned(), shots.iter().map(turned).collect::<Vec<_>>())];
-    let ([shot], false, Light::Set(_)) = (shots, is_unknown, &request.document.light) else { return Ok(all) };
-    let results = Results::default();
-    let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
-    let own = scene.light()?.grid;
-    for name in OTHERS {
-        let other = scene.illuminant(name)?.grid;
-        let mut pairs = own.values().iter().zip(other.values());
-        let ratio = GridSpectrum::from_fn(|_| pairs.next().map_or(0.0, |(own, other)| other / own));
-        let mut shot = shot.clone();
-        shot.patches.iter_mut().for_each(|patch| patch.radiance = lit(&patch.radiance, &ratio));
-        all.push((format!("the light {name}"), vec![shot]));
+        shots.push(scene.chart_shot(patches, &[], arguments.noise / 100.0, is_daylight)?);
     }
-    Ok(all)
+    Ok(shots)
 }
 
 fn column(name: &str, width: usize, decimals: usize) -> Column {
@@ -168,13 +141,8 @@ fn percents(values: [Option<f64>; 3]) -> impl Iterator<Item = Cell> {
     values.into_iter().map(|value| value.map(|value| 100.0 * value).into())
 }
 
-fn text(
-    recovery: &ChartRecovery,
-    library: &Library,
-    shots: &[Shot],
-    omitted: &[LeftOut],
-    mired: Option<f64>,
-) -> String {
+fn text(measured: &ChartMeasurement) -> String {
+    let ChartMeasurement { recovery, shots, .. } = measured;
     let mut text = String::new();
     let mut curves = Table::new(
         ["nm", "red", "±", "green", "±", "blue", "±", "data R %", "data G %", "data B %"]
@@ -190,59 +158,71 @@ fn text(
     text += &curves.to_text();
     text += "± is expanded (k = 2). The share of the data is one less the ratio of the variances after and before; the rest is the library's.\n";
     for (shot, (residuals, brightness)) in shots.iter().zip(recovery.residuals.iter().zip(&recovery.brightness)) {
-        let mut table = Table::new(["R %", "G %", "B %"].map(|name| column(name, 6, 2)).into_iter().chain([column(
-            "brightness",
-            10,
-            3,
-        )]));
+        let channels = ["R %", "G %", "B %"].map(|name| column(name, 6, 2));
+        let mut table = Table::new(channels.into_iter().chain([column("brightness", 10, 3)]));
         for (row, bright) in residuals.iter().zip(brightness) {
             table.push(percents(*row).chain([Cell::from(*bright)]));
         }
         table.insert(0, column("patch", 5, 0), shot.patches.iter().map(|patch| patch.name.as_str().into()));
         let _ = write!(text, "\nResiduals, recorded over modeled\n\n{}", table.to_text());
     }
+    text += &conditions(measured);
+    text += "Nearest tables of the library, root mean square of the difference relative to the curves:\n";
+    for (name, distance) in measured.nearest.iter().take(NEAREST) {
+        let _ = writeln!(text, "  {} %  {name}", fixed(100.0 * distance, 1));
+    }
+    text + &differences(measured)
+}
+
+/// Noise, glare, brightness, unlikeness and daylight in sentences.
+fn conditions(measured: &ChartMeasurement) -> String {
+    let recovery = &measured.recovery;
     let glare = recovery.glare.map(|glare| fixed(100.0 * glare, 2)).join(", ");
-    let _ = writeln!(
-        text,
-        "\nResiduals are {} times the noise; glare {glare} % of the brightest patch; brightness varies by {} %",
+    let mut text = format!(
+        "\nResiduals are {} times the noise; glare {glare} % of the brightest patch; brightness varies by {} %\n",
         fixed(recovery.noise_ratio, 2),
         fixed(100.0 * recovery.unevenness, 1)
     );
-    if let (Some(mired), Some([t, deviation])) = (mired, recovery.light.first()) {
-        let (found, deviation) = (mired + t * MIREDS, deviation * MIREDS);
-        let kelvin = 1e6 / found;
-        let _ = writeln!(
-            text,
-            "Daylight of {} K ± {} K (k = 2)",
-            fixed(kelvin, 0),
-            fixed(2.0 * deviation * kelvin / found, 0)
-        );
-    }
-    text += "Nearest tables of the library, root mean square of the difference relative to the curves:\n";
-    for (name, distance) in library.nearest(&own.values).iter().take(NEAREST) {
-        let _ = writeln!(text, "  {} %  {name}", fixed(100.0 * distance, 1));
-    }
-    text + &differences(omitted)
-}
-
-type Difference = fn(&LeftOut) -> Option<f64>;
-
-/// Summary of the color differences of patches, each predicted from all others.
-fn differences(omitted: &[LeftOut]) -> String {
-    let mut text = "Patches excluded one at a time, ΔE*00 (mean, largest):\n".to_owned();
-    let kinds: [(&str, Difference); 3] = [
-        ("recorded against predicted by the curves", |patch| patch.table),
-        ("matrix from the curves", |patch| patch.from_curves),
-        ("matrix from the recorded patches", |patch| patch.from_patches),
-    ];
-    for (what, of) in kinds {
-        let all: Vec<f64> = omitted.iter().filter_map(of).collect();
-        let mean = all.iter().sum::<f64>() / all.len().max(1) as f64;
-        let worst =
-            omitted.iter().filter_map(|patch| Some((of(patch)?, &patch.patch))).max_by(|a, b| a.0.total_cmp(&b.0));
-        if let Some((largest, patch)) = worst {
-            let _ = writeln!(text, "  {}, {} ({patch})  {what}", fixed(mean, 2), fixed(largest, 2));
-        }
+    let unlikeness = fixed(recovery.unlikeness, 2);
+    text += &if recovery.unlikeness > 1.0 {
+        format!(
+            "This camera is unlike those of the library (distance {unlikeness}, where 1 is expected at most): its bands are widened by that factor, and may still be too narrow\n"
+        )
+    } else {
+        format!("The camera is like those of the library: distance {unlikeness}, where 1 is expected at most\n")
+    };
+    if let Some([kelvin, deviation]) = measured.daylight {
+        let _ = writeln!(text, "Daylight of {} K ± {} K (k = 2)", fixed(kelvin, 0), fixed(2.0 * deviation, 0));
     }
     text
+}
+
+/// Color differences: of patches predicted from all others, and of the corrections under each light.
+fn differences(measured: &ChartMeasurement) -> String {
+    let summary = |of: &[Option<f64>]| ErrorSummary::new(of);
+    let mut text = String::new();
+    let excluded: Vec<Option<f64>> = measured.left_out.iter().map(|(_, error)| *error).collect();
+    if let Some(found) = summary(&excluded) {
+        let (mean, most) = (fixed(found.mean, 2), fixed(found.max, 2));
+        let worst = &measured.left_out[found.worst].0;
+        let _ = writeln!(
+            text,
+            "Patches recovered without, recorded against predicted: ΔE*00 mean {mean}, largest {most} ({worst})"
+        );
+    }
+    for (light, profile) in &measured.profiles {
+        let heads = ["predicted", "largest", "measured", "largest", "excluded", "largest"];
+        let mut table = Table::new(heads.map(|head| column(head, 9, 2)));
+        let mut names = Vec::new();
+        for fit in profile.fits.iter().flatten() {
+            let source = if fit.source == FitSource::Patches { "recorded patches" } else { "recovered curves" };
+            names.push(Cell::from(format!("{}, {source}", fit.correction.method.label())));
+            let pair = |of: &[Option<f64>]| summary(of).map_or([None; 2], |found| [Some(found.mean), Some(found.max)]);
+            let cells = [&fit.predicted, &fit.measured, &fit.left_out].map(|of| pair(of)).concat();
+            table.push(cells.into_iter().map(Cell::from));
+        }
+        table.insert(0, column("fit, by", 6, 0), names);
+        let _ = write!(text, "\nColor corrections under {light}, ΔE*00 (mean, largest)\n\n{}", table.to_text());
+    }
+    text + "predicted: the curves' values; measured: the recorded values; excluded: recorded values through a fit without that patch\n"
 }

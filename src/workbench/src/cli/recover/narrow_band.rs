@@ -7,14 +7,16 @@ use chromascope_core::recovery::{Cell as State, NarrowBandRecovery, NarrowBands}
 use chromascope_figure::{Cell, Column, Table};
 use clap::Args;
 
-use super::{Written, comment, library, put};
+use super::{Written, put};
 use crate::catalog::narrow_bands::read_pass;
 use crate::cli::error::{Result, refused};
 use crate::cli::outputs::{check, show};
 use crate::cli::request::{Request, in_file};
 use crate::document::start::Start;
 use crate::format::{display_path, fixed};
+use crate::results::Results;
 use crate::scene::recorded::CHANNELS;
+use crate::scene::recovery::{built_in_cameras, library};
 
 #[derive(Debug, Args)]
 pub(super) struct NarrowBandArguments {
@@ -43,11 +45,14 @@ pub(super) fn run(arguments: &NarrowBandArguments) -> Result<()> {
     let bands = NarrowBands { passes, clip: arguments.clip };
     let first = &arguments.files[0];
     let nm = bands.wavelengths_nm().map_err(|error| in_file(first, error))?;
-    let found = bands.recover(&library(&request, &nm)?).map_err(|error| in_file(first, error))?;
+    let library = library(&built_in_cameras(&request.catalog), &nm, &Results::default())?;
+    arguments.written.format()?;
+    let found = bands.recover(&library).map_err(|error| in_file(first, error))?;
     show(&text(&found))?;
     let files: Vec<String> = arguments.files.iter().map(|file| display_path(file)).collect();
-    let method = "recovered from raw means of narrow bands (chromascope recover narrowband); cells that were saturated or dark are filled from the library's tables";
-    put(&found.curves, &arguments.written, &[comment("source", files.join(", ")), comment("note", method)])
+    let reduction = "mean quotient of the passes, smoothed by the discrepancy principle (chromascope recover narrowband); cells that were saturated or dark are filled from the library's tables";
+    let method = format!("raw means of {} narrow bands, {} passes", nm.len(), files.len());
+    put(&found.curves, &arguments.written, &arguments.written.provenance(&files.join(", "), &method, reduction))
 }
 
 fn text(found: &NarrowBandRecovery) -> String {
@@ -62,7 +67,9 @@ fn text(found: &NarrowBandRecovery) -> String {
         let quotient = |c: usize| match found.cells[c][k] {
             State::Saturated => "saturated".to_owned(),
             State::Dark => "dark".to_owned(),
-            State::Good => fixed(found.quotient[c][k] / peak, 4),
+            State::Good => {
+                format!("{} ± {}", fixed(found.quotient[c][k] / peak, 4), fixed(2.0 * found.deviation[c][k] / peak, 4))
+            }
         };
         let cells = [*nm].into_iter().chain([0, 1, 2].into_iter().flat_map(pair)).map(Cell::from);
         table.push(cells.chain([Cell::from([0, 1, 2].map(quotient).join("  "))]));

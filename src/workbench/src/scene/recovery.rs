@@ -1,0 +1,93 @@
+//! Cameras measured from shots of a chart, with the built-in tables as prior.
+
+use std::sync::Arc;
+
+use chromascope_core::camera::recorded::RecordedPatch;
+use chromascope_core::query::{Ask, ChartMeasurement, ChartRecoveryQuery, ChartShot, Query, Shared};
+use chromascope_core::recovery::{Library, Shot};
+use chromascope_core::spectral::{GridSpectrum, Sensor};
+
+use super::metrics::SetPlace;
+use super::{Result, Scene, SceneError};
+use crate::catalog::load::{SensorQuery, StandardsQuery};
+use crate::catalog::{Catalog, Entry};
+use crate::document::{CIE_1931, Light, SetKind};
+
+/// Lights that a shot is compared with, where another than the one named would explain it.
+const OTHER_LIGHTS: [&str; 7] = ["A", "D50", "D55", "D65", "D75", "FL2", "FL11"];
+
+/// Question for a camera's sensitivities by shots of a chart. The library's tables are loaded where it is answered.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct MeasuredCameraQuery {
+    pub shots: Vec<ChartShot>,
+    cameras: Vec<SetPlace>,
+    other_lights: Vec<(String, Shared<GridSpectrum>)>,
+    observer: Shared<Sensor>,
+}
+
+impl Query for MeasuredCameraQuery {
+    type Answer = Result<Arc<ChartMeasurement>>;
+    const NAME: &'static str = "camera measured from a chart";
+    const CAPACITY: usize = 8;
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let standards = (*ask.ask(&StandardsQuery)).clone();
+        let standards = standards.map_err(|error| SceneError::Load { name: "daylight".to_owned(), error })?;
+        let sites: Vec<f64> = (0..41).map(|i| 380.0 + 10.0 * f64::from(i)).collect();
+        let query = ChartRecoveryQuery {
+            library: Shared::new(library(&self.cameras, &sites, ask)?),
+            shots: self.shots.clone(),
+            daylight: Shared::new(standards.daylight.clone()),
+            other_lights: self.other_lights.clone(),
+            observer: self.observer.clone(),
+        };
+        Ok((*ask.ask(&query)).clone()?)
+    }
+}
+
+/// Built-in cameras: what users measured takes no part in the prior.
+pub fn built_in_cameras(catalog: &Catalog) -> Vec<SetPlace> {
+    let place =
+        |entry: &Entry| SetPlace { kind: SetKind::Camera, name: entry.name.clone(), place: entry.place.clone() };
+    catalog.of_kind(SetKind::Camera).map(place).collect()
+}
+
+/// Tables of cameras for curves at some wavelengths.
+pub fn library(cameras: &[SetPlace], wavelengths_nm: &[f64], ask: &impl Ask) -> Result<Library> {
+    let table = |SetPlace { name, place, .. }: &SetPlace| {
+        let sensor = (*ask.ask(&SensorQuery(place.clone()))).clone();
+        let sensor = sensor.map_err(|error| SceneError::Load { name: name.clone(), error })?;
+        Ok((name.clone(), (*sensor).clone()))
+    };
+    Ok(Library::new(cameras.iter().map(table).collect::<Result<Vec<_>>>()?, wavelengths_nm))
+}
+
+impl Scene<'_> {
+    /// Patches recorded under the light on the scene, with the standard deviations of their values by the pixels where they are known, and
+    /// of what model and recording differ by beyond that, relative to a value. With `is_daylight` the light on the scene stands in for
+    /// daylight of unknown temperature.
+    pub fn chart_shot(
+        &self,
+        patches: Vec<RecordedPatch>,
+        pixels: &[[f64; 3]],
+        relative: f64,
+        is_daylight: bool,
+    ) -> Result<ChartShot> {
+        let light = (*self.light()?.grid).clone();
+        let name = if is_daylight { "daylight".to_owned() } else { self.light_name() };
+        Ok(ChartShot { shot: Shared::new(Shot::new(patches, light, pixels, relative)), is_daylight, light: name })
+    }
+
+    /// Question for the sensitivities of the camera that recorded some shots.
+    pub fn measured_camera(&self, shots: Vec<ChartShot>) -> Result<MeasuredCameraQuery> {
+        // A light by formula may be any: there is no list of what it could be mistaken for.
+        let lights = if matches!(self.document.light, Light::Set(_)) { &OTHER_LIGHTS[..] } else { &[] };
+        let other = |name: &&str| Ok(((*name).to_owned(), self.illuminant(name)?.grid));
+        Ok(MeasuredCameraQuery {
+            shots,
+            cameras: built_in_cameras(self.catalog),
+            other_lights: lights.iter().map(other).collect::<Result<_>>()?,
+            observer: self.sensor(SetKind::Observer, CIE_1931)?,
+        })
+    }
+}
