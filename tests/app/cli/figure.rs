@@ -104,7 +104,7 @@ fn axes_end_where_they_are_told_to_and_layers_are_left_out() {
     assert!(spectra.contains("font-family=\"Tinos,"));
     let whole = drawn("chromaticity", &[]);
     let bare = drawn("chromaticity", &["--no-loci", "--x-range", "0.3,0.5", "--y-range", "0.3,0.42"]);
-    assert!(whole.contains("Loci from") && whole.contains("Large ring") && !bare.contains("Loci from 1000"), "{bare}");
+    assert!(whole.contains("Loci from") && whole.contains("Rings") && !bare.contains("Loci from 1000"), "{bare}");
     assert!(bare.contains(">0.35</text>") && !bare.contains(">0.8</text>"));
 }
 

@@ -202,7 +202,7 @@ pub fn figure_sized(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom, size
     document.overlays.loci &= room.loci;
     let scene = &Scene { document: &document, ..*scene };
     // Neither hovering nor a pinned pixel is shown on paper.
-    let mut paper = FigureLook { fit: look.fit, ..FigureLook::default() };
+    let mut paper = FigureLook { fit: look.fit, has_legend: !room.names, ..FigureLook::default() };
     match room.ranges {
         AxisRanges::Full => paper.fit = DiagramFit::Whole,
         AxisRanges::Screen => {
@@ -268,7 +268,9 @@ pub fn caption(scene: &Scene<'_>) -> String {
         Some(viewing_conditions(scene)),
         overlays.patches.then(|| patches_words(scene)),
         Some(transform_words(scene)),
-        overlays.loci.then(|| format!("{} Large ring: {temperature:.0} K.", loci_words(scene))),
+        overlays.loci.then(|| {
+            format!("{} Dots: 1000, 2000, 3000, 5000, 10000, 20000 K. Rings: {temperature:.0} K.", loci_words(scene))
+        }),
     ];
     parts.into_iter().flatten().collect::<Vec<_>>().join(" ")
 }
@@ -293,7 +295,8 @@ pub fn conditions(scene: &Scene<'_>) -> String {
 
 /// The patches in a sentence.
 pub fn patches_words(scene: &Scene<'_>) -> String {
-    format!("Patches: {}.", scene.document.chart)
+    let part = if scene.subset().is_some() { "five of " } else { "" };
+    format!("Patches: {part}{}.", scene.document.chart)
 }
 
 /// The color transform in a sentence.

@@ -68,8 +68,9 @@ fn row(ranked: &Ranked, cameras: [usize; 2], metric: CameraMetric) -> Option<Row
     let reach = difference.uncertainty.map_or(0.0, |by| by.coverage * by.standard);
     let is_significant = differ(a, b) == Some(true);
     let better = if is_significant { is_better(metric, a, b).map_or("≠", |a| if a { "A" } else { "B" }) } else { "" };
+    let dagger = if difference.uncertainty.is_some_and(|by| by.is_extrapolated) { "†" } else { "" };
     Some(Row {
-        name: metric.symbol.to_owned(),
+        name: format!("{}{dagger}", metric.symbol),
         behind: better.to_owned(),
         ink: InkRole::Text.into(),
         marker: Marker::Circle,

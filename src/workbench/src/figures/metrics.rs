@@ -9,6 +9,7 @@ use super::kind::FigureKind;
 use super::look::{FigureLook, Sorting};
 use super::whiskers::{self, Row};
 use crate::format::rank_in_words;
+use crate::names::shortest;
 use crate::scene::Scene;
 use crate::scene::metrics::{CameraFigures, Ranked};
 use crate::scene::uncertainty::{self, cell, number, uncertainty, unit, with_nature};
@@ -198,9 +199,12 @@ fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figu
     let width = room.width.unwrap_or(WIDTH);
     let most = room.height.map_or(MOST, |height| (height / whiskers::ROW) as usize - 4);
     let places = shown(order.len(), most.max(2), |place| source(order[place].0).is_some());
+    let names: Vec<&str> = places.iter().map(|place| ranked.cameras[order[*place].0].id.name.as_str()).collect();
+    let names =
+        if width < NARROW { shortest(names.into_iter()) } else { names.into_iter().map(str::to_owned).collect() };
     let mut rows = Vec::new();
     let mut next = 0;
-    for &place in &places {
+    for (&place, name) in places.iter().zip(names) {
         let words = |name: String| Row {
             name,
             behind: String::new(),
@@ -222,7 +226,7 @@ fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figu
             behind: if width < NARROW { rank + dagger } else { behind },
             ink: InkRole::Text.into(),
             value: Some([merit, by]),
-            ..words(ranked.cameras[camera].id.name.clone())
+            ..words(name)
         };
         rows.push(match source(camera) {
             Some(source) => Row { ink: source.role.into(), marker: source.marker, ..row },

@@ -72,7 +72,9 @@ pub(super) fn build(scene: &Scene<'_>, size: [f64; 2]) -> Result<Built, String> 
         });
         let y = Axis::new(part, [-root(top), root(top)]).with_ticks(Ticks::At(ticks.collect())).with_grid(true);
         let mut x = strip::temperature_axis();
-        x.label = if panels.is_empty() { String::new() } else { "blackbody temperature (K)".to_owned() };
+        if panels.is_empty() {
+            x.label.clear();
+        }
         let mut panel = Panel::new(format!("Offset {part}"), area, x, y);
         if panels.is_empty() {
             panel.note = scene.document.exaggeration.note().unwrap_or_default();
@@ -112,6 +114,7 @@ pub(super) fn build(scene: &Scene<'_>, size: [f64; 2]) -> Result<Built, String> 
                 labels.push(Label { starts: vec![at], ..Label::new(format!("{kelvin:.0} K"), source.role, places) });
             }
         }
+        let mut panel = panel.with_headroom(2.0);
         let [low, high] = panel.y.range;
         for top in [low, high] {
             panel.marks.push(strip::cursor(marked, top));
