@@ -4,7 +4,9 @@ use chromascope_core::camera::locus_deviation::LocusDeviation;
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::query::{Ask as _, LocusDeviationsQuery, LocusQuery, Temperatures};
 use chromascope_core::units::Kelvin;
-use chromascope_figure::{Axis, Dash, Field, Label, Labels, Mark, Marker, Panel, Place, Rect, Shape, Table, Ticks};
+use chromascope_figure::{
+    Axis, Dash, Field, Label, Labels, Mark, Marker, Panel, Place, Projection, Rect, Shape, Table, Ticks,
+};
 
 use super::{Built, id, sources};
 use crate::document::{Diagram, SetKind};
@@ -126,6 +128,12 @@ pub(super) fn build(scene: &Scene<'_>, size: [f64; 2]) -> Result<Built, String> 
         }
         panel.marks.extend(placed.into_marks());
         panels.push(panel);
+    }
+    // Both plots begin at one place.
+    let begin = |panel: &Panel| Projection::new(panel, 1.0).plot.min[0];
+    let left = panels.iter().map(begin).fold(0.0, f64::max);
+    for panel in &mut panels {
+        panel.area.min[0] += left - begin(panel);
     }
     Ok(Built { panels, things })
 }

@@ -5,7 +5,7 @@ use chromascope_core::spectral::{SpectralDistribution, StatedUncertainty};
 use chromascope_figure::{Dash, Ink, InkRole, LegendEntry, Mark, Shape, Stroke, Tag};
 
 use super::Built;
-use crate::document::{SetKind, Subset};
+use crate::document::SetKind;
 use crate::figures::band;
 use crate::figures::chromaticity::{self, id};
 use crate::figures::data_set::{Name, channel_symbol};
