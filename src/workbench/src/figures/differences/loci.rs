@@ -113,7 +113,7 @@ pub(super) fn build(scene: &Scene<'_>, size: [f64; 2]) -> Result<Built, String> 
                 let ring = Mark::new(tag, format!("{}: minimum at {kelvin:.0} K", source.label), ring);
                 signs.push(ring.with_stroke(source.role, 1.5).with_fill(chromascope_figure::InkRole::Plot));
                 let places = Place::around(at, [-1.0, -1.0], 7.0);
-                labels.push(Label { starts: vec![at], ..Label::new(format!("{kelvin:.0} K"), source.role, places) });
+                labels.push(Label::new(format!("{kelvin:.0} K"), source.role, places));
             }
         }
         let mut panel = panel.with_headroom(2.0);

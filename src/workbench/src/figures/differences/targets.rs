@@ -26,7 +26,7 @@ const GAP: f64 = 6.0;
 const SHAFT: [f64; 2] = [2.0, 3.6];
 const TIP: [f64; 2] = [7.0, 3.6];
 /// Least distance of the rings of round lengths.
-const RINGS: f64 = 30.0;
+const RINGS: f64 = 20.0;
 /// Points of a closed line.
 const CORNERS: u32 = 96;
 
@@ -81,9 +81,15 @@ impl Frame {
         [GAP + column as f64 * (self.cell[0] + GAP), GAP + row as f64 * (self.cell[1] + GAP)]
     }
 
-    /// A round length whose rings are far enough from each other, and few up to a distance in points.
-    fn round(&self, far: f64) -> f64 {
-        let least = RINGS.max(far / 5.0) / self.scale;
+    /// Distance of the reference's place from the farthest corner of a plot, in points.
+    fn reach(&self) -> f64 {
+        let [x, y] = self.origin;
+        x.max(self.cell[0] - x).hypot(y.max(self.cell[1] - self.head - y))
+    }
+
+    /// A round length whose rings are far enough from each other, and few.
+    fn step(&self) -> f64 {
+        let least = RINGS.max(self.reach() / 5.0) / self.scale;
         let decade = 10_f64.powf(least.log10().floor());
         [1.0, 2.0, 5.0].map(|step| step * decade).into_iter().find(|step| *step >= least).unwrap_or(10.0 * decade)
     }
@@ -359,10 +365,9 @@ impl Target<'_> {
         let [x, y] = self.at([0.0; 2]);
         self.segment("reference", [[min[0], y], [max[0], y]], InkRole::Grid, 1.0);
         self.segment("reference", [[x, min[1]], [x, max[1]]], InkRole::Grid, 1.0);
-        let far = (max[0] - x).max(x - min[0]).hypot((max[1] - y).max(y - min[1]));
-        let step = self.frame.round(far);
+        let step = self.frame.step();
         let small = |text: String, places: Vec<Place>| Label::new(text, InkRole::Weak, places);
-        for count in 1..=(far / (step * self.frame.scale)) as u32 {
+        for count in 1..=(self.frame.reach() / (step * self.frame.scale)) as u32 {
             let radius = f64::from(count) * step;
             self.outline(&format!("length {}", number(radius)), &circle(radius), InkRole::Grid, (1.0, Dash::Solid));
             if named || self.area.width() > 180.0 {
@@ -433,17 +438,17 @@ impl Patches<'_> {
 
 /// What the plots of a size show, in sentences.
 pub(super) fn words(scene: &Scene<'_>, plane: DifferencePlane, size: [f64; 2]) -> String {
-    let form = compared(scene, plane).map_or(0, |(_, all)| {
-        let frame = Frame::of(scene, &all, plane, size);
-        Heads::new(&frame, &all, axes(plane).1, scene.document.exaggeration.note()).form
-    });
-    let numbers = if form == 2 { " Numbers: mean length." } else { "" };
+    let all = compared(scene, plane).map_or_else(|_| Vec::new(), |(_, all)| all);
+    let frame = Frame::of(scene, &all, plane, size);
+    let heads = Heads::new(&frame, &all, axes(plane).1, scene.document.exaggeration.note());
+    let numbers = if heads.form == 2 { " Numbers: mean length." } else { "" };
+    let step = number(frame.step());
     let [x, y] = axes(plane).0;
     let by_eq_13 = plane == DifferencePlane::Lab && scene.document.transform == TransformChoice::Paper;
     let eq_13 = if by_eq_13 { " L*a*b* of Eq 13 colors, which is not that of the CIE." } else { "" };
     format!(
         "Arrows: {x}, {y} from the reference, in the patch's color; all on one scale, double tip: beyond the frame. Cross: mean \
-         vector. Dashed ring: 95 % quantile of the lengths.{}{numbers}{eq_13}",
+         vector. Dashed ring: 95 % quantile of the lengths. Gray rings: every {step}.{}{numbers}{eq_13}",
         limit_words(scene, plane)
     )
 }

@@ -167,7 +167,7 @@ impl<'a> Board<'a> {
         let is_crowded = rows.len() > CROWDED && size[0] < NARROW;
         let least = match (self.look.without_bars, columns * lines) {
             (_, count) if count > 60 => [8.0; 2],
-            (false, _) if is_crowded => [12.0, Note::Bar.height() + LEAST_COLOR],
+            (false, _) if is_crowded => [16.0, Note::Bar.height() + LEAST_COLOR],
             (false, _) => [self.widest_number(&rows) + 4.0 + LEAST_TRACK, Note::Close.height() + LEAST_COLOR],
             (true, _) => [12.0; 2],
         };
