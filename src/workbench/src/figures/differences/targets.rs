@@ -123,6 +123,12 @@ impl Target<'_> {
         self.marks.push(mark.with_stroke(ink, width).with_dash(dash));
     }
 
+    /// True if a small text at a position lies in the plot.
+    fn holds(&self, words: &str, place: &Place) -> bool {
+        let at = [place.at[0] + place.offset[0], place.at[1] + place.offset[1]];
+        self.area.holds(&text_area(words, TextSize::Small, at, place.anchor))
+    }
+
     fn segment(&mut self, name: &str, ends: [[f64; 2]; 2], ink: InkRole, width: f64) {
         let Some(ends) = clip_segment(self.area, ends) else { return };
         let mark = Mark::new(PickIndex::NONE, name, Shape::Segments { segments: vec![ends] });
@@ -379,8 +385,9 @@ impl Target<'_> {
                         if v == 0.0 { (Anchor::TOP, [0.0, 2.0]) } else { (Anchor::LEFT, [3.0, 0.0]) };
                     Place { at, anchor, offset }
                 });
-                let inside = places.into_iter().filter(|place| self.area.contains(place.at)).collect();
-                texts.push(small(number(radius), inside));
+                let words = number(radius);
+                let inside = places.into_iter().filter(|place| self.holds(&words, place)).collect();
+                texts.push(small(words, inside));
             }
         }
         let [across, up] = axes(plane).0;
@@ -425,11 +432,7 @@ impl Patches<'_> {
             let [x, y] = target.at([0.0; 2]);
             let toward = [(x - end[0]).signum(), (y - end[1]).signum()];
             let places = [7.0, 12.0].into_iter().flat_map(|far| Place::around(end, toward, far));
-            let holds = |place: &Place| {
-                let at = [place.at[0] + place.offset[0], place.at[1] + place.offset[1]];
-                target.area.holds(&text_area(&words, TextSize::Small, at, place.anchor))
-            };
-            let places: Vec<Place> = places.filter(holds).collect();
+            let places: Vec<Place> = places.filter(|place| target.holds(&words, place)).collect();
             let label = Label::new(words, if is_pointed { InkRole::Text } else { InkRole::Weak }, places);
             texts.push(Label { tag, always: is_pointed, ..label });
         }
