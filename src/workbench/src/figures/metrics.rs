@@ -219,7 +219,8 @@ fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figu
         next = place + 1;
         let (camera, value, merit) = order[place];
         let rank = rank_in_words(ranks[camera]);
-        let behind = [number(metric, value), uncertainty(value).unwrap_or_default(), rank.clone()].join(" ");
+        let value_in_words = [number(metric, value), uncertainty(value).unwrap_or_default()].join(" ");
+        let behind = format!("{}, {rank}", value_in_words.trim_end());
         let by = value.uncertainty.map_or(0.0, |by| by.standard);
         let dagger = if value.uncertainty.is_some_and(|by| by.is_extrapolated) { "†" } else { "" };
         let row = Row {
