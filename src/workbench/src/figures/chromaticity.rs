@@ -225,7 +225,9 @@ pub fn figure_sized(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom, size
     }
     figure.legend = scene.visible_sources().iter().map(legend_entry).collect();
     figure.legend_place = LegendPlace::Outside;
-    figure.caption = format!("{}{}", caption(scene), scene.document.exaggeration.sentence());
+    let is_beyond = figure.panels[0].marks.iter().any(|mark| mark.name.ends_with(", outside"));
+    let beyond = if is_beyond { " Hollow triangles: points beyond the axes." } else { "" };
+    figure.caption = format!("{}{beyond}{}", caption(scene), scene.document.exaggeration.sentence());
     figure.table = table(scene);
     if room.numbers == Numbers::Visible {
         keep_inside(&mut figure.table, scene.document.diagram, [shown.x, shown.y]);
@@ -354,7 +356,7 @@ const COLUMNS: [Field<Point>; 13] = [
     Field { decimals: Some(6), ..Field::quantity(["duv", "Duv", ""], |point| point.cct.map(|cct| cct.duv).into()) },
 ];
 
-fn table(scene: &Scene<'_>) -> Table {
+pub(super) fn table(scene: &Scene<'_>) -> Table {
     let mut points = Vec::new();
     let reference_locus = scene.locus(SetKind::Observer, &scene.document.reference).ok();
     let reference_patches = scene.patch_colors(SetKind::Observer, &scene.document.reference).unwrap_or_default();

@@ -5,7 +5,7 @@ use chromascope_core::query::Locus;
 use chromascope_core::query::displacement::JUST_VISIBLE_UV_PRIME as JUST_VISIBLE;
 use chromascope_figure::{
     Anchor, Axis, Cell, Dash, Figure, FigureRoom, InkRole, Label, Labels, LegendPlace, Mark, Marker, Panel, Place,
-    Projection, Rect, Shape, Table, TextSize, Ticks, text_width,
+    Projection, Rect, Shape, TextSize, Ticks, text_width,
 };
 
 use super::chromaticity::{self, distance_symbol, id};
@@ -102,15 +102,15 @@ pub static KIND: FigureKind =
     FigureKind::new("strip", "Distance of each locus to the reference's over temperature", figure);
 
 /// The strip as a figure of its own, with its numbers; none where no sensor can be compared with the reference.
-fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
+fn figure(scene: &Scene<'_>, _: &FigureLook, room: FigureRoom) -> Option<Figure> {
     let size = room.size(SIZE, 0.0);
-    let whole = chromaticity::KIND.figure(scene, look, room)?;
     let mut figure = Figure::new("Distance to the reference over temperature", size);
     figure.panels.push(build(scene, size)?.panel);
     let drawn = compared(scene).collect::<Vec<_>>();
     figure.legend = drawn.iter().map(|source| chromaticity::key(source, source.label.clone())).collect();
     let is_locus = |row: &Vec<Cell>| row.get(1) == Some(&Cell::from("locus"));
-    figure.table = Table { rows: whole.table.rows.into_iter().filter(is_locus).collect(), ..whole.table };
+    figure.table = chromaticity::table(scene);
+    figure.table.rows.retain(is_locus);
     figure.caption = caption(scene);
     figure.legend_place = LegendPlace::Outside;
     Some(figure)
