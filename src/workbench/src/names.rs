@@ -67,6 +67,6 @@ mod tests {
         let expected = ["5D III", "5D IV", "D70 (2007 figure)", "D70 (UPenn 2011)", "D700"];
         assert_eq!(all.each_ref().map(shortest), expected.map(|short| Some(short.to_owned())));
         assert_eq!(fitted(&all[0], &all, |form| form.len() < 14), "5D III");
-        assert_eq!(fitted(&all[0], &all, |form| form.chars().count() < 5), "5D I…");
+        assert_eq!(fitted(&all[0], &all, |form| form.chars().count() <= 5), "5D I…");
     }
 }
