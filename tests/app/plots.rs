@@ -270,7 +270,7 @@ fn axes_have_titles() {
         assert_eq!(titles, ["relative power", "reflectance", "relative sensitivity", ""]);
         assert_eq!(panels[3].x.label, "wavelength (nm)");
         let strip = strip::build(scene, STRIP).expect("cameras compare").panel;
-        assert_eq!(strip.x.label, "blackbody temperature (K)");
+        assert_eq!(strip.x.label, "blackbody temperature (1000 K)");
         // The title stands below the tick labels, inside the panel.
         let projection = chromascope_figure::Projection::new(&strip, 1.0);
         let notes = annotations(&strip, projection.plot, 1.0);

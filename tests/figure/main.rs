@@ -86,12 +86,12 @@ fn a_range_without_round_numbers_still_has_a_tick() {
 }
 
 #[test]
-fn crowded_given_ticks_lose_labels_between_the_ends_first() {
+fn crowded_given_ticks_are_left_out_between_the_ends_first() {
     let at = [(1000.0, "1000 K"), (60.0, "17000 K"), (200.0, "5000 K"), (50.0, "20000 K")];
     let axis = Axis::new("mired", [1000.0, 50.0]).with_ticks(Ticks::At(at.map(|(v, s)| (v, s.to_owned())).to_vec()));
     let ticks = axis.ticks_over(axis.range, 600.0);
     let read: Vec<(f64, &str)> = ticks.iter().map(|t| (t.value, t.label.as_str())).collect();
-    assert_eq!(read, [(50.0, "20000 K"), (60.0, ""), (200.0, "5000 K"), (1000.0, "1000 K")]);
+    assert_eq!(read, [(50.0, "20000 K"), (200.0, "5000 K"), (1000.0, "1000 K")]);
 }
 
 #[test]
@@ -107,7 +107,7 @@ fn zero_is_labeled_before_its_neighbors() {
     let at = [-0.4, 0.0, 1.0].map(|value| (value, format!("{value:.1}")));
     let axis = Axis::new("", [-0.4, 1.0]).with_ticks(Ticks::At(at.to_vec()));
     let read: Vec<String> = axis.ticks_over(axis.range, 70.0).into_iter().map(|tick| tick.label).collect();
-    assert_eq!(read, ["", "0.0", "1.0"]);
+    assert_eq!(read, ["0.0", "1.0"]);
 }
 
 #[test]

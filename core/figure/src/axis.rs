@@ -28,7 +28,7 @@ pub enum Ticks {
     /// Round numbers, as many as there is room for.
     #[default]
     Auto,
-    /// At the given values with the given labels. Labels too close to others are omitted, their grid lines stay.
+    /// At the given values with the given labels. Those whose labels are too close to others are omitted.
     At(Vec<(f64, String)>),
 }
 
@@ -88,6 +88,8 @@ impl Axis {
             Ticks::At(at) => inside(at, range),
         };
         thin_out(&mut ticks, range, length, spacing);
+        // A grid line without a number tells nothing.
+        ticks.retain(|tick| self.ticks == Ticks::Auto || !tick.label.is_empty());
         ticks
     }
 

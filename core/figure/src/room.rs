@@ -41,6 +41,8 @@ pub struct FigureRoom {
     pub patches: bool,
     /// True if the chromaticity diagram has its Planckian loci.
     pub loci: bool,
+    /// True if sensors are named at their loci: no legend names them.
+    pub names: bool,
     /// Ranges of the axes.
     pub ranges: AxisRanges,
     /// Ends of x and of y of the first plot; equal ones for its own.
@@ -57,6 +59,7 @@ impl Default for FigureRoom {
             strip: true,
             patches: true,
             loci: true,
+            names: true,
             ranges: AxisRanges::Screen,
             limits: [[0.0; 2]; 2],
             numbers: Numbers::All,

@@ -41,7 +41,9 @@ pub fn fitted(name: &str, all: &[String], fits: impl Fn(&str) -> bool) -> String
 
 fn formed(name: &str, (brackets, maker, series): (bool, bool, bool)) -> String {
     let model = if brackets { name.split_once(" (").map_or(name, |(model, _)| model) } else { name };
-    let model = if maker { model.split_once(' ').map_or(model, |(_, rest)| rest) } else { model };
+    // What follows a lone model in brackets is no name.
+    let rest = model.split_once(' ').map(|(_, rest)| rest).filter(|rest| maker && !rest.starts_with('('));
+    let model = rest.unwrap_or(model);
     let words = model.split(' ').filter(|word| !series || !SERIES.contains(word));
     words.collect::<Vec<_>>().join(" ")
 }
@@ -61,9 +63,10 @@ mod tests {
         ];
         let all = all.map(str::to_owned);
         let shortest = |name: &String| shortened(name, &all).pop();
+        assert_eq!(shortened("D70 (2007)", &["D70 (2007)".to_owned()]), ["D70 (2007)", "D70"]);
         let expected = ["5D III", "5D IV", "D70 (2007 figure)", "D70 (UPenn 2011)", "D700"];
         assert_eq!(all.each_ref().map(shortest), expected.map(|short| Some(short.to_owned())));
         assert_eq!(fitted(&all[0], &all, |form| form.len() < 14), "5D III");
-        assert_eq!(fitted(&all[0], &all, |form| form.chars().count() < 5), "5D I…");
+        assert_eq!(fitted(&all[0], &all, |form| form.chars().count() <= 5), "5D I…");
     }
 }

@@ -247,7 +247,7 @@ impl<'a> Scene<'a> {
     }
 
     /// Names of the chart's patches that are compared; none for all.
-    fn subset(&self) -> Option<&'static [&'static str]> {
+    pub(crate) fn subset(&self) -> Option<&'static [&'static str]> {
         let five = self.document.subset == Subset::Five && self.has_five();
         five.then_some(PAPER_FIVE.as_slice())
     }

@@ -91,6 +91,31 @@ fn every_figure_of_a_scene_is_made_at_one_column() {
 }
 
 #[test]
+fn words_are_of_what_is_drawn() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let drawn = |kind: &str, options: &[&str]| {
+        let out = folder.path().join("figure.svg").to_string_lossy().into_owned();
+        let done = run(&[&["figure", kind, "--force", "--out", &out], options].concat());
+        assert!(done.status.success(), "{kind}: {}", String::from_utf8_lossy(&done.stderr));
+        fs::read_to_string(&out).expect("a file")
+    };
+    // The reference has no distance to itself, and no CIE observer one to a camera by Eq 13.
+    let strip = drawn("strip", &["--preset", "paper"]);
+    assert!(strip.contains(">Kodak DCS200</text>") && !strip.contains("(reference)</text>"));
+    assert!(!strip.contains(">CIE 1931 2°</text>"));
+    // A legend names sensors once; without one they are named at their loci.
+    let named = |svg: &str| svg.matches(">Kodak DCS200</text>").count();
+    assert_eq!(named(&drawn("chromaticity", &[])), 1);
+    assert_eq!(named(&drawn("chromaticity", &["--legend", "none"])), 1);
+    assert!(!drawn("differences", &["--plane", "loci"]).contains("Patches:"));
+    // Each camera has its map, the reference being among them or not.
+    let two = ["--camera", "Kodak DCS200", "--camera", "Nikon D200", "--mesh", "plane", "--dpi", "36"];
+    let maps = drawn("difference", &two);
+    assert!(maps.contains("DCS200</text>") && maps.contains("D200</text>") && maps.matches("<image").count() == 3);
+    assert!(drawn("spectra", &["--preset", "paper"]).contains("five of"));
+}
+
+#[test]
 fn axes_end_where_they_are_told_to_and_layers_are_left_out() {
     let folder = tempfile::tempdir().expect("a folder");
     let drawn = |kind: &str, options: &[&str]| {
@@ -104,7 +129,7 @@ fn axes_end_where_they_are_told_to_and_layers_are_left_out() {
     assert!(spectra.contains("font-family=\"Tinos,"));
     let whole = drawn("chromaticity", &[]);
     let bare = drawn("chromaticity", &["--no-loci", "--x-range", "0.3,0.5", "--y-range", "0.3,0.42"]);
-    assert!(whole.contains("Loci from") && whole.contains("Large ring") && !bare.contains("Loci from 1000"), "{bare}");
+    assert!(whole.contains("Loci from") && whole.contains("Rings") && !bare.contains("Loci from 1000"), "{bare}");
     assert!(bare.contains(">0.35</text>") && !bare.contains(">0.8</text>"));
 }
 

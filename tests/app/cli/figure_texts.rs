@@ -26,10 +26,15 @@ const CAMERAS: [&str; 8] = [
 ];
 
 /// Figures with the arguments that they need beyond cameras.
-const KINDS: [(&str, &[&str]); 16] = [
+const KINDS: [(&str, &[&str]); 21] = [
     ("chromaticity", &[]),
     ("chromaticity", &["--preset", "paper"]),
     ("chromaticity", &["--range", "full"]),
+    ("differences", &[]),
+    ("differences", &["--plane", "lab"]),
+    ("differences", &["--plane", "xy", "--illuminant", "A"]),
+    ("differences", &["--plane", "loci"]),
+    ("differences", &["--exaggerate", "10"]),
     ("strip", &[]),
     ("strip", &["--preset", "paper"]),
     ("spectra", &[]),

@@ -216,6 +216,7 @@ impl Paper {
             strip: self.strip,
             patches: self.patches,
             loci: self.loci,
+            names: self.legend == Some(LegendPlace::None),
             ranges: self.ranges,
             limits: [self.x_range, self.y_range],
             numbers: self.numbers,

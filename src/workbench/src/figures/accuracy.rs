@@ -1,7 +1,7 @@
 //! Run time against error for the visible scene, as measured.
 
 use chromascope_figure::{
-    Cell, Column, Figure, FigureRoom, InkRole, LegendEntry, LegendPlace, Marker, Panel, Rect, Stroke, Table, Tag,
+    Cell, Column, Figure, FigureRoom, InkRole, LegendEntry, LegendPlace, Marker, Panel, Rect, Table, Tag,
 };
 use chromascope_measure::Measurement;
 use chromascope_measure::method::{Family, Point};
@@ -110,7 +110,7 @@ fn figure(_: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> 
     figure.legend_place = LegendPlace::Outside;
     figure.caption = format!(
         "{}: {}. {} Times are medians over rounds in which the methods take turns, for {}, on one thread; errors are \
-         against {}, {}. The dashed line joins methods that no other surpasses in both.",
+         against {}, {}. Filled and joined: methods that no other surpasses in both.",
         run.conditions.of(trial),
         trial.inputs_in_words(),
         run.conditions.on(),
@@ -138,7 +138,7 @@ pub fn legend(trial: &Trial) -> Vec<LegendEntry> {
     let families: std::collections::BTreeSet<Family> = trial.points.iter().map(|point| point.family).collect();
     let entry = |family: Family| LegendEntry {
         name: family.title().to_owned(),
-        stroke: Some(Stroke { width: 0.0, ..Stroke::solid(role(family), 1.5) }),
+        stroke: None,
         marker: Some(marker(family)),
         fill: Some(role(family).into()),
     };

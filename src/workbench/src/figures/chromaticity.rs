@@ -202,7 +202,7 @@ pub fn figure_sized(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom, size
     document.overlays.loci &= room.loci;
     let scene = &Scene { document: &document, ..*scene };
     // Neither hovering nor a pinned pixel is shown on paper.
-    let mut paper = FigureLook { fit: look.fit, ..FigureLook::default() };
+    let mut paper = FigureLook { fit: look.fit, has_legend: !room.names, ..FigureLook::default() };
     match room.ranges {
         AxisRanges::Full => paper.fit = DiagramFit::Whole,
         AxisRanges::Screen => {
@@ -225,7 +225,9 @@ pub fn figure_sized(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom, size
     }
     figure.legend = scene.visible_sources().iter().map(legend_entry).collect();
     figure.legend_place = LegendPlace::Outside;
-    figure.caption = format!("{}{}", caption(scene), scene.document.exaggeration.sentence());
+    let is_beyond = figure.panels[0].marks.iter().any(|mark| mark.name.ends_with(", outside"));
+    let beyond = if is_beyond { " Hollow triangles: points beyond the axes." } else { "" };
+    figure.caption = format!("{}{beyond}{}", caption(scene), scene.document.exaggeration.sentence());
     figure.table = table(scene);
     if room.numbers == Numbers::Visible {
         keep_inside(&mut figure.table, scene.document.diagram, [shown.x, shown.y]);
@@ -268,7 +270,9 @@ pub fn caption(scene: &Scene<'_>) -> String {
         Some(viewing_conditions(scene)),
         overlays.patches.then(|| patches_words(scene)),
         Some(transform_words(scene)),
-        overlays.loci.then(|| format!("{} Large ring: {temperature:.0} K.", loci_words(scene))),
+        overlays.loci.then(|| {
+            format!("{} Dots: 1000, 2000, 3000, 5000, 10000, 20000 K. Rings: {temperature:.0} K.", loci_words(scene))
+        }),
     ];
     parts.into_iter().flatten().collect::<Vec<_>>().join(" ")
 }
@@ -293,7 +297,8 @@ pub fn conditions(scene: &Scene<'_>) -> String {
 
 /// The patches in a sentence.
 pub fn patches_words(scene: &Scene<'_>) -> String {
-    format!("Patches: {}.", scene.document.chart)
+    let part = if scene.subset().is_some() { "five of " } else { "" };
+    format!("Patches: {part}{}.", scene.document.chart)
 }
 
 /// The color transform in a sentence.
@@ -351,7 +356,7 @@ const COLUMNS: [Field<Point>; 13] = [
     Field { decimals: Some(6), ..Field::quantity(["duv", "Duv", ""], |point| point.cct.map(|cct| cct.duv).into()) },
 ];
 
-fn table(scene: &Scene<'_>) -> Table {
+pub(super) fn table(scene: &Scene<'_>) -> Table {
     let mut points = Vec::new();
     let reference_locus = scene.locus(SetKind::Observer, &scene.document.reference).ok();
     let reference_patches = scene.patch_colors(SetKind::Observer, &scene.document.reference).unwrap_or_default();

@@ -18,19 +18,19 @@ const SIZE: [f64; 2] = [460.0, 240.0];
 const ROUND_K: [f64; 12] =
     [1500.0, 2000.0, 2500.0, 3000.0, 3500.0, 4000.0, 5000.0, 6000.0, 7000.0, 8000.0, 10_000.0, 15_000.0];
 
-/// A curve: its name, its values, its looks.
-type Curve = (fn(&CorrectionFile) -> String, fn(&TwoLightPoint) -> f64, InkRole, Dash);
+/// A curve: its name, its values, its looks, by which it is told apart also in gray.
+type Curve = (fn(&CorrectionFile) -> String, fn(&TwoLightPoint) -> f64, InkRole, (f64, Dash));
 
 const CURVES: [Curve; 4] = [
-    (|file| format!("matrix of {}", file.of.lights[0]), |point| point.first, InkRole::Sensor(0), Dash::Dashed),
+    (|file| format!("matrix of {}", file.of.lights[0]), |point| point.first, InkRole::Sensor(0), (1.5, Dash::Dashed)),
     (
         |file| format!("matrix of {}", file.of.lights.last().map_or("", String::as_str)),
         |point| point.second,
         InkRole::Sensor(1),
-        Dash::Dashed,
+        (1.5, Dash::Solid),
     ),
-    (|_| "fitted at each temperature".to_owned(), |point| point.own, InkRole::Weak, Dash::Dotted),
-    (|_| "mixed as DNG readers do".to_owned(), |point| point.mixed, InkRole::Text, Dash::Solid),
+    (|_| "fitted at each temperature".to_owned(), |point| point.own, InkRole::Weak, (1.5, Dash::Dotted)),
+    (|_| "mixed as DNG readers do".to_owned(), |point| point.mixed, InkRole::Text, (2.5, Dash::Solid)),
 ];
 
 pub static KIND: FigureKind =
@@ -42,9 +42,9 @@ fn figure(_: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> 
     let mut figure = Figure::new(title(file), room.size(SIZE, 0.0));
     figure.panels.push(panel(file, figure.size)?);
     figure.legend = CURVES
-        .map(|(name, _, role, dash)| LegendEntry {
+        .map(|(name, _, role, (width, dash))| LegendEntry {
             name: name(file),
-            stroke: Some(Stroke { dash, ..Stroke::solid(role, 1.5) }),
+            stroke: Some(Stroke { dash, ..Stroke::solid(role, width) }),
             marker: None,
             fill: None,
         })
@@ -87,10 +87,10 @@ pub fn panel(file: &CorrectionFile, size: [f64; 2]) -> Option<Panel> {
     panel.marks = CURVES
         .iter()
         .enumerate()
-        .map(|(index, (name, of, role, dash))| {
+        .map(|(index, (name, of, role, (width, dash)))| {
             let line =
                 Shape::Line { points: points.iter().map(|point| [mired(point), of(point)]).collect(), closed: false };
-            Mark::new(Tag(index as u32), name(file), line).with_stroke(*role, 1.5).with_dash(*dash)
+            Mark::new(Tag(index as u32), name(file), line).with_stroke(*role, *width).with_dash(*dash)
         })
         .collect();
     Some(panel)

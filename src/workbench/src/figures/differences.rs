@@ -115,9 +115,12 @@ fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figu
         let shown = scene.visible_sources().into_iter().filter(|source| !source.is_reference);
         figure.legend = shown.map(|source| key(&source, source.label.clone())).collect();
         figure.legend_place = LegendPlace::Below;
-        figure.caption = format!("{}{exaggerated} {}", loci::WORDS, chromaticity::caption(scene));
+        let [seen, transform] = [chromaticity::viewing_conditions(scene), chromaticity::transform_words(scene)];
+        let (loci, kelvin) = (chromaticity::loci_words(scene), scene.document.temperature_k);
+        figure.caption =
+            format!("{}{exaggerated} Vertical line: {kelvin:.0} K. {seen} {transform} {loci}", loci::WORDS);
     } else {
-        let words = targets::words(scene, look.difference_plane);
+        let words = targets::words(scene, look.difference_plane, size);
         figure.caption = format!("{words}{exaggerated} {}", chromaticity::conditions(scene));
     }
     figure.table = if is_of_loci { loci::table(scene) } else { targets::table(scene) };

@@ -48,9 +48,11 @@ fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figu
     figure.panels = whiskers::panels(&rows, "A − B, % of the larger", width, true).into();
     figure.size = figure.panels[0].area.max;
     let known: Vec<_> = uncertainties(&ranked, [a, b]).collect();
+    let [mark_a, mark_b] =
+        [a, b].map(|at| if uncertainties(&ranked, [at]).any(|by| by.is_extrapolated) { "†" } else { "" });
     figure.caption = format!(
-        "A: {name_a}. B: {name_b}. Differences A − B in percent of the larger value, with whiskers to 95 %; filled and \
-         lettered where they exceed them: A or B is better, or they only differ (≠). {} {}",
+        "A: {name_a}{mark_a}. B: {name_b}{mark_b}. Differences A − B in percent of the larger value, with whiskers to \
+         95 %; filled and lettered where they exceed them: A or B is better, or they only differ (≠). {} {}",
         scene.metrics_words_with(CameraMetric::ALL, known),
         conditions(scene)
     );

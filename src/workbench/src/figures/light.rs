@@ -157,7 +157,8 @@ fn figure(scene: &Scene<'_>, _: &FigureLook, room: FigureRoom) -> Option<Figure>
     figure.panels.extend(bars(&rendition, first).into_iter().chain(vectors(&rendition, second)));
     let [one, other] = if is_narrow { ["Above", "Below"] } else { ["Left", "Right"] };
     figure.caption = format!(
-        "{}. {one}: color rendering indices, CIE 13.3. {other}: color vectors of ANSI/IES TM-30, the reference dashed.",
+        "{}. {one}: color rendering indices, CIE 13.3. {other}: color vectors of ANSI/IES TM-30, the reference dashed; \
+         thin circles: chroma ±20 %.",
         scene.light_name()
     );
     figure.table = table(scene, &rendition);

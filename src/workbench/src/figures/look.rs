@@ -29,6 +29,8 @@ pub struct FigureLook {
     pub diagram: DiagramView,
     /// Ranges that another plot is zoomed to, with the title of the figure that they are of.
     pub zoom: Option<(String, Ranges)>,
+    /// True if a legend names the sensors: nothing does at their loci.
+    pub has_legend: bool,
     /// Share of the loci that is drawn, while they draw in.
     pub locus_share: Option<f64>,
     pub pinned_pixel: Option<PixelPlace>,

@@ -9,6 +9,7 @@ use super::kind::FigureKind;
 use super::look::{FigureLook, Sorting};
 use super::whiskers::{self, Row};
 use crate::format::rank_in_words;
+use crate::names::shortest;
 use crate::scene::Scene;
 use crate::scene::metrics::{CameraFigures, Ranked};
 use crate::scene::uncertainty::{self, cell, number, uncertainty, unit, with_nature};
@@ -198,9 +199,12 @@ fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figu
     let width = room.width.unwrap_or(WIDTH);
     let most = room.height.map_or(MOST, |height| (height / whiskers::ROW) as usize - 4);
     let places = shown(order.len(), most.max(2), |place| source(order[place].0).is_some());
+    let names: Vec<&str> = places.iter().map(|place| ranked.cameras[order[*place].0].id.name.as_str()).collect();
+    let names =
+        if width < NARROW { shortest(names.into_iter()) } else { names.into_iter().map(str::to_owned).collect() };
     let mut rows = Vec::new();
     let mut next = 0;
-    for &place in &places {
+    for (&place, name) in places.iter().zip(names) {
         let words = |name: String| Row {
             name,
             behind: String::new(),
@@ -215,14 +219,15 @@ fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figu
         next = place + 1;
         let (camera, value, merit) = order[place];
         let rank = rank_in_words(ranks[camera]);
-        let behind = [number(metric, value), uncertainty(value).unwrap_or_default(), rank.clone()].join(" ");
+        let value_in_words = [number(metric, value), uncertainty(value).unwrap_or_default()].join(" ");
+        let behind = format!("{}, {rank}", value_in_words.trim_end());
         let by = value.uncertainty.map_or(0.0, |by| by.standard);
         let dagger = if value.uncertainty.is_some_and(|by| by.is_extrapolated) { "†" } else { "" };
         let row = Row {
             behind: if width < NARROW { rank + dagger } else { behind },
             ink: InkRole::Text.into(),
             value: Some([merit, by]),
-            ..words(ranked.cameras[camera].id.name.clone())
+            ..words(name)
         };
         rows.push(match source(camera) {
             Some(source) => Row { ink: source.role.into(), marker: source.marker, ..row },

@@ -11,7 +11,7 @@ use chromascope_figure::{
 use spectral_image::ImageQuantity;
 
 use self::headline::{Detail, Measure};
-use super::chromaticity::viewing_conditions;
+use super::chromaticity::{transform_words, viewing_conditions};
 use super::kind::{FigureKind, Need};
 use super::look::{FigureLook, PixelPlace, RenderMode};
 use crate::format::fixed;
@@ -50,9 +50,9 @@ pub fn picture_width(room: FigureRoom, count: usize) -> f64 {
 }
 
 /// Pictures shown, by index: all, or all but the reference.
-fn shown(shot: &RenderedFrame, mode: RenderMode) -> std::ops::Range<usize> {
-    let only_sources = matches!(mode, RenderMode::One | RenderMode::Difference);
-    usize::from(only_sources && shot.sources.len() > 1)..shot.sources.len()
+fn shown(shot: &RenderedFrame, mode: RenderMode) -> Vec<usize> {
+    let only_compared = shot.sources.len() > 1 && matches!(mode, RenderMode::One | RenderMode::Difference);
+    (0..shot.sources.len()).filter(|at| !(only_compared && shot.sources[*at].is_reference)).collect()
 }
 
 pub static KIND: FigureKind =
@@ -78,7 +78,8 @@ fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figu
     let shape = made.pictures.iter().flatten().next().map_or([1, 1], |picture| [picture.width, picture.height]);
     let width = picture_width(room, shown.len());
     let size = [width, width * shape[1] as f64 / shape[0].max(1) as f64];
-    let cells: Vec<PictureCell<'_>> = shown.map(|at| PictureCell::new(shot, at, maps.is_some(), width)).collect();
+    let cells: Vec<PictureCell<'_>> =
+        shown.into_iter().map(|at| PictureCell::new(shot, at, maps.is_some(), width)).collect();
     let above = cells.iter().map(PictureCell::height).fold(0.0, f64::max);
     let rows = cells.len().div_ceil(columns);
     let scale = if maps.is_some() { difference::SCALE_HEIGHT } else { 0.0 };
@@ -208,7 +209,8 @@ fn caption(scene: &Scene<'_>, shot: &RenderedFrame) -> String {
             ImageQuantity::Radiance => format!("radiances, white at Y = {:.3e}", image.white),
         };
         let size = image_words(shot, image);
-        return format!("Spectral image: {mesh}, {size}, {quantity}. {}", viewing_conditions(scene));
+        let [seen, transform] = [viewing_conditions(scene), transform_words(scene)];
+        return format!("Spectral image: {mesh}, {size}, {quantity}. {seen} {transform}");
     }
     let roughness = match settings.roughness {
         Roughness::Surface => format!("σ = {} µm, τ = {} µm", settings.sigma_um, settings.tau_um),
@@ -219,13 +221,14 @@ fn caption(scene: &Scene<'_>, shot: &RenderedFrame) -> String {
     let thin = if settings.thin { ", light passes through as through a leaf" } else { "" };
     format!(
         "Mesh: {mesh}. Material: {}{thin}, {roughness}, n = {}. Normalization of P: {}; coherent component: {}; {}. Reference: {}. \
-         Light: {light}{sky}. White balance: {white}.",
+         Light: {light}{sky}. White balance: {white}. {}",
         settings.materials(),
         settings.index,
         settings.normalization.label(),
         settings.specular.label(),
         settings.area.label(),
-        scene.document.reference
+        scene.document.reference,
+        transform_words(scene)
     )
 }
 

@@ -4,8 +4,8 @@ use chromascope_core::colorimetry::Xy;
 use chromascope_core::query::Locus;
 use chromascope_core::query::displacement::JUST_VISIBLE_UV_PRIME as JUST_VISIBLE;
 use chromascope_figure::{
-    Anchor, Axis, Cell, Dash, Figure, FigureRoom, InkRole, Label, Labels, Mark, Marker, Panel, Place, Projection, Rect,
-    Shape, Table, TextSize, Ticks, text_width,
+    Anchor, Axis, Cell, Dash, Figure, FigureRoom, InkRole, Label, Labels, LegendPlace, Mark, Marker, Panel, Place,
+    Projection, Rect, Shape, TextSize, Ticks, text_width,
 };
 
 use super::chromaticity::{self, distance_symbol, id};
@@ -25,8 +25,8 @@ pub struct Strip {
     pub things: PickIndex,
 }
 
-/// Temperatures that are written below, in kelvins.
-const TICKS: [f64; 7] = [1000.0, 1200.0, 1500.0, 2000.0, 3000.0, 5000.0, 20_000.0];
+/// Temperatures that are written below, in thousands of kelvins.
+const TICKS: [f64; 8] = [1.0, 1.2, 1.5, 2.0, 3.0, 5.0, 10.0, 20.0];
 /// Largest distance drawn: a locus that goes to infinity leaves the strip, the others stay readable.
 const LARGEST: f64 = 0.6;
 
@@ -91,9 +91,9 @@ pub fn build(scene: &Scene<'_>, size: [f64; 2]) -> Option<Strip> {
 
 /// The temperatures of loci, evenly in mired, cold at the left.
 pub(super) fn temperature_axis() -> Axis {
-    let ticks = TICKS.iter().map(|kelvin| (1e6 / kelvin, format!("{kelvin:.0}"))).collect();
+    let ticks = TICKS.iter().map(|thousands| (1e3 / thousands, thousands.to_string())).collect();
     let range = LOCUS_RANGE_K.map(|kelvin| 1e6 / kelvin);
-    Axis::new("blackbody temperature (K)", range).with_ticks(Ticks::At(ticks)).with_grid(true)
+    Axis::new("blackbody temperature (1000 K)", range).with_ticks(Ticks::At(ticks)).with_grid(true)
 }
 
 const SIZE: [f64; 2] = [640.0, 170.0];
@@ -102,15 +102,18 @@ pub static KIND: FigureKind =
     FigureKind::new("strip", "Distance of each locus to the reference's over temperature", figure);
 
 /// The strip as a figure of its own, with its numbers; none where no sensor can be compared with the reference.
-fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
+fn figure(scene: &Scene<'_>, _: &FigureLook, room: FigureRoom) -> Option<Figure> {
     let size = room.size(SIZE, 0.0);
-    let whole = chromaticity::KIND.figure(scene, look, room)?;
     let mut figure = Figure::new("Distance to the reference over temperature", size);
     figure.panels.push(build(scene, size)?.panel);
+    let drawn = compared(scene).collect::<Vec<_>>();
+    figure.legend = drawn.iter().map(|source| chromaticity::key(source, source.label.clone())).collect();
     let is_locus = |row: &Vec<Cell>| row.get(1) == Some(&Cell::from("locus"));
-    figure.table = Table { rows: whole.table.rows.into_iter().filter(is_locus).collect(), ..whole.table };
+    figure.table = chromaticity::table(scene);
+    figure.table.rows.retain(is_locus);
     figure.caption = caption(scene);
-    Some(Figure { legend: whole.legend, legend_place: whole.legend_place, ..figure })
+    figure.legend_place = LegendPlace::Outside;
+    Some(figure)
 }
 
 /// What the strip depends on, and its minima, in sentences.
@@ -123,20 +126,22 @@ fn caption(scene: &Scene<'_>) -> String {
     format!("{before} {} {loci}{minima}", chromaticity::transform_words(scene))
 }
 
-/// Sensors that can be compared with the reference, with their minima.
+/// Sensors that are compared, with their minima.
 fn minima(scene: &Scene<'_>) -> Vec<(ComparedSensor, [f64; 2])> {
+    compared(scene).filter_map(|source| minimum(scene, &source).map(|at| (source, at))).collect()
+}
+
+/// Visible sensors that can be compared with the reference.
+fn compared<'a>(scene: &'a Scene<'_>) -> impl Iterator<Item = ComparedSensor> + 'a {
     let sources = scene.visible_sources().into_iter();
-    let compared = sources.filter(|source| !source.is_reference && scene.is_comparable(source.kind, &source.name));
-    compared.filter_map(|source| minimum(scene, &source).map(|at| (source, at))).collect()
+    sources.filter(|source| !source.is_reference && scene.is_comparable(source.kind, &source.name))
 }
 
 /// Lines and signs of the sensors; none where there are none.
 fn content(scene: &Scene<'_>, reference: &Locus, things: &mut PickIndex) -> Option<Content> {
     let diagram = scene.document.diagram;
     let mut content = Content::default();
-    let mut sources = scene.visible_sources();
-    sources.retain(|source| !source.is_reference && scene.is_comparable(source.kind, &source.name));
-    for source in &sources {
+    for source in &compared(scene).collect::<Vec<_>>() {
         let Ok(locus) = scene.locus(source.kind, &source.name) else { continue };
         let pairs = locus.points.iter().zip(&reference.points);
         let points: Vec<[f64; 2]> =

@@ -172,6 +172,8 @@ pub fn figure_sized(scene: &Scene<'_>, look: &FigureLook, size: [f64; 2]) -> Fig
         SwatchStyle::Inset => "Inside: reference; outside: sensor.",
         SwatchStyle::Whole => "",
     };
+    let heads =
+        if in_rows(look.swatch_layout, patch_names(scene).len()) { "" } else { " Beside names: the worst patch." };
     let worst = worst(scene).map_or_else(String::new, |(words, _)| format!("{words}. "));
     let bars = if look.without_bars { String::new() } else { format!(" Bars: {}.", scene.difference_name()) };
     let exaggerated = scene.document.exaggeration.sentence();
@@ -182,7 +184,7 @@ pub fn figure_sized(scene: &Scene<'_>, look: &FigureLook, size: [f64; 2]) -> Fig
         (true, true) => " Notched corners: clipped.",
         (false, true) => "",
     };
-    figure.caption = format!("{how}{bars}{exaggerated}{clipped} {worst}{}", conditions(scene));
+    figure.caption = format!("{how}{bars}{heads}{exaggerated}{clipped} {worst}{}", conditions(scene));
     figure.table = table(scene);
     figure
 }

@@ -1,7 +1,8 @@
 //! Dots with whiskers on one axis, a row for each name.
 
 use chromascope_figure::{
-    Anchor, Axis, Dash, Ink, InkRole, Mark, Marker, Panel, Projection, Rect, Shape, Tag, TextSize, text_width,
+    Anchor, Axis, Dash, Ink, InkRole, Mark, Marker, Panel, Projection, Rect, Shape, Tag, TextSize, Ticks, auto_ticks,
+    text_width,
 };
 
 /// Height of a row in points.
@@ -33,9 +34,13 @@ pub(super) fn panels(rows: &[Row], title: &str, width: f64, with_zero: bool) -> 
     let zero = if with_zero { 0.0 } else { f64::INFINITY };
     let (low, high) = (ends().fold(zero, f64::min), ends().fold(if with_zero { 0.0 } else { -zero }, f64::max));
     let pad = 0.05 * (high - low).max(1e-9);
-    let x = Axis::new(title, [low - pad, high + pad]);
+    let range = [low - pad, high + pad];
+    let across = (width - left - right).max(LEAST);
+    // Twice as many as on screen: a narrow plot would have one number.
+    let ticks = auto_ticks(range, 2.0 * across).into_iter().map(|tick| (tick.value, tick.label)).collect();
+    let x = Axis::new(title, range).with_ticks(Ticks::At(ticks));
     let count = rows.len() as f64;
-    let size = [(width - left - right).max(LEAST), count * ROW + Projection::bottom(&x)];
+    let size = [across, count * ROW + Projection::bottom(&x)];
     let whole = Rect::from_min_size([0.0; 2], [left + size[0] + right, size[1]]);
     let mut names = Panel::board("names", whole, Ink::new(InkRole::Plot));
     let area = Rect::from_min_size([left, 0.0], size);

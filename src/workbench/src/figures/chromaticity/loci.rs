@@ -28,7 +28,8 @@ const NAMED: usize = 6;
 
 /// Adds the loci of all sensors, the reference's thick one below the others.
 pub(super) fn add(drawing: &mut Drawing<'_>, sources: &[ComparedSensor]) {
-    let are_named = sources.iter().filter(|source| !source.is_reference).count() <= NAMED;
+    let is_few = sources.iter().filter(|source| !source.is_reference).count() <= NAMED;
+    let are_named = is_few && !drawing.look.has_legend;
     let (reference, others): (Vec<_>, Vec<_>) = sources.iter().rev().partition(|source| source.is_reference);
     for source in reference.into_iter().chain(others) {
         // While B is held, the reference replaces every camera.
@@ -80,7 +81,7 @@ fn add_one(drawing: &mut Drawing<'_>, source: &ComparedSensor, locus: &[LocusPoi
         add_marker(drawing, source, &points)
     };
     add_mark(drawing, source);
-    if is_named || source.is_reference {
+    if is_named || (source.is_reference && !drawing.look.has_legend) {
         add_end(drawing, source, &points, marker);
     }
 }

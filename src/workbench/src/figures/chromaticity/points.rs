@@ -310,7 +310,8 @@ pub(super) fn add_arrows(drawing: &mut Drawing<'_>) {
             taken.push((edge, ink.role));
             let shape = Shape::Points { points: vec![frame.value(edge)], marker, radius: ARROW };
             let arrow = Mark::new(mark.tag, format!("{}, outside", mark.name), shape);
-            arrows.push(arrow.with_fill(ink).with_halo(InkRole::Plot));
+            // Hollow, or it would be a marker of the sensor that has triangles.
+            arrows.push(arrow.with_stroke(ink, 1.2).with_fill(InkRole::Plot).with_halo(InkRole::Plot));
         }
     }
     drawing.small.append(&mut arrows);

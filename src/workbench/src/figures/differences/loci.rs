@@ -4,7 +4,9 @@ use chromascope_core::camera::locus_deviation::LocusDeviation;
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::query::{Ask as _, LocusDeviationsQuery, LocusQuery, Temperatures};
 use chromascope_core::units::Kelvin;
-use chromascope_figure::{Axis, Dash, Field, Label, Labels, Mark, Marker, Panel, Place, Rect, Shape, Table, Ticks};
+use chromascope_figure::{
+    Axis, Dash, Field, Label, Labels, Mark, Marker, Panel, Place, Projection, Rect, Shape, Table, Ticks,
+};
 
 use super::{Built, id, sources};
 use crate::document::{Diagram, SetKind};
@@ -72,7 +74,9 @@ pub(super) fn build(scene: &Scene<'_>, size: [f64; 2]) -> Result<Built, String> 
         });
         let y = Axis::new(part, [-root(top), root(top)]).with_ticks(Ticks::At(ticks.collect())).with_grid(true);
         let mut x = strip::temperature_axis();
-        x.label = if panels.is_empty() { String::new() } else { "blackbody temperature (K)".to_owned() };
+        if panels.is_empty() {
+            x.label.clear();
+        }
         let mut panel = Panel::new(format!("Offset {part}"), area, x, y);
         if panels.is_empty() {
             panel.note = scene.document.exaggeration.note().unwrap_or_default();
@@ -109,9 +113,10 @@ pub(super) fn build(scene: &Scene<'_>, size: [f64; 2]) -> Result<Built, String> 
                 let ring = Mark::new(tag, format!("{}: minimum at {kelvin:.0} K", source.label), ring);
                 signs.push(ring.with_stroke(source.role, 1.5).with_fill(chromascope_figure::InkRole::Plot));
                 let places = Place::around(at, [-1.0, -1.0], 7.0);
-                labels.push(Label { starts: vec![at], ..Label::new(format!("{kelvin:.0} K"), source.role, places) });
+                labels.push(Label::new(format!("{kelvin:.0} K"), source.role, places));
             }
         }
+        let mut panel = panel.with_headroom(2.0);
         let [low, high] = panel.y.range;
         for top in [low, high] {
             panel.marks.push(strip::cursor(marked, top));
@@ -123,6 +128,12 @@ pub(super) fn build(scene: &Scene<'_>, size: [f64; 2]) -> Result<Built, String> 
         }
         panel.marks.extend(placed.into_marks());
         panels.push(panel);
+    }
+    // Both plots begin at one place.
+    let begin = |panel: &Panel| Projection::new(panel, 1.0).plot.min[0];
+    let left = panels.iter().map(begin).fold(0.0, f64::max);
+    for panel in &mut panels {
+        panel.area.min[0] += left - begin(panel);
     }
     Ok(Built { panels, things })
 }

@@ -7,7 +7,7 @@ use chromascope_core::query::displacement::{JUST_VISIBLE_UV_PRIME, unit_contour}
 use chromascope_core::query::{Displacements, PatchColor};
 use chromascope_figure::{
     Anchor, Dash, Field, Ink, InkRole, Label, Labels, Mark, Marker, Panel, Place, Rect, Shape, Table, TextSize,
-    clip_segment, text_width, wrapped,
+    clip_segment, text_area, text_width, wrapped,
 };
 
 use super::{Built, Compared, axes, compared, id, place};
@@ -26,7 +26,7 @@ const GAP: f64 = 6.0;
 const SHAFT: [f64; 2] = [2.0, 3.6];
 const TIP: [f64; 2] = [7.0, 3.6];
 /// Least distance of the rings of round lengths.
-const RINGS: f64 = 30.0;
+const RINGS: f64 = 20.0;
 /// Points of a closed line.
 const CORNERS: u32 = 96;
 
@@ -81,9 +81,15 @@ impl Frame {
         [GAP + column as f64 * (self.cell[0] + GAP), GAP + row as f64 * (self.cell[1] + GAP)]
     }
 
-    /// A round length whose rings are far enough from each other, and few up to a distance in points.
-    fn round(&self, far: f64) -> f64 {
-        let least = RINGS.max(far / 5.0) / self.scale;
+    /// Distance of the reference's place from the farthest corner of a plot, in points.
+    fn reach(&self) -> f64 {
+        let [x, y] = self.origin;
+        x.max(self.cell[0] - x).hypot(y.max(self.cell[1] - self.head - y))
+    }
+
+    /// A round length whose rings are far enough from each other, and few.
+    fn step(&self) -> f64 {
+        let least = RINGS.max(self.reach() / 5.0) / self.scale;
         let decade = 10_f64.powf(least.log10().floor());
         [1.0, 2.0, 5.0].map(|step| step * decade).into_iter().find(|step| *step >= least).unwrap_or(10.0 * decade)
     }
@@ -115,6 +121,12 @@ impl Target<'_> {
         }
         let mark = Mark::new(PickIndex::NONE, name, Shape::Line { points: line, closed: false });
         self.marks.push(mark.with_stroke(ink, width).with_dash(dash));
+    }
+
+    /// True if a small text at a position lies in the plot.
+    fn holds(&self, words: &str, place: &Place) -> bool {
+        let at = [place.at[0] + place.offset[0], place.at[1] + place.offset[1]];
+        self.area.holds(&text_area(words, TextSize::Small, at, place.anchor))
     }
 
     fn segment(&mut self, name: &str, ends: [[f64; 2]; 2], ink: InkRole, width: f64) {
@@ -274,7 +286,8 @@ pub(super) fn build(
 /// Heads of all cameras, their statistics in one form: the longest that fits beside the shortest names.
 struct Heads<'a> {
     frame: &'a Frame,
-    short: Vec<String>,
+    /// Names, all in full or all shortened.
+    names: Vec<String>,
     decimals: usize,
     note: Option<String>,
     form: usize,
@@ -286,16 +299,21 @@ impl<'a> Heads<'a> {
     const AIR: f64 = 10.0;
 
     fn new(frame: &'a Frame, all: &[Compared], decimals: usize, note: Option<String>) -> Self {
-        let short = crate::names::shortest(all.iter().map(|one| one.source.label.as_str()));
-        let heads = Self { frame, short, decimals, note, form: 0 };
-        let fits = |form: &usize| {
-            let mut cells = all.iter().zip(&heads.short);
-            cells.all(|(one, short)| {
-                let beside = if heads.is_below() { 0.0 } else { Self::named(short) + Self::AIR };
-                beside + text_width(&heads.statistics(one, *form), TextSize::Small) <= frame.cell[0]
+        let full: Vec<String> = all.iter().map(|one| one.source.label.clone()).collect();
+        let short = crate::names::shortest(full.iter().map(String::as_str));
+        let heads = Self { frame, names: Vec::new(), decimals, note, form: 0 };
+        let fit = |names: &[String], form: usize| {
+            all.iter().zip(names).all(|(one, name)| {
+                let words = text_width(&heads.statistics(one, form), TextSize::Small);
+                let air = if words > 0.0 { Self::AIR } else { 0.0 };
+                let wide =
+                    if heads.is_below() { Self::named(name).max(words) } else { Self::named(name) + air + words };
+                wide <= frame.cell[0]
             })
         };
-        Self { form: (0..3).find(fits).unwrap_or(3), ..heads }
+        let form = (0..4).find(|form| fit(&short, *form)).unwrap_or(4);
+        let names = if fit(&full, form) { full } else { short };
+        Self { form, names, ..heads }
     }
 
     fn is_below(&self) -> bool {
@@ -316,8 +334,10 @@ impl<'a> Heads<'a> {
             2 => mean,
             _ => String::new(),
         };
-        let parts = [words, self.note.clone().unwrap_or_default()];
-        parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("; ")
+        let note = self.note.as_deref().unwrap_or_default();
+        // In little room only its factor.
+        let note = if form > 3 { note.rsplit(' ').next().unwrap_or(note) } else { note };
+        [words.as_str(), note].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("; ")
     }
 
     fn add(&self, panel: &mut Panel, index: usize, one: &Compared, things: &mut PickIndex) {
@@ -330,8 +350,7 @@ impl<'a> Heads<'a> {
         let words = self.statistics(one, self.form);
         let beside = text_width(&words, TextSize::Small) + Self::AIR;
         let room = if self.is_below() || words.is_empty() { width } else { width - beside };
-        let name = if Self::named(&source.label) <= room { &source.label } else { &self.short[index] };
-        let name = cut_in_middle(name, |name| Self::named(name) <= room);
+        let name = cut_in_middle(&self.names[index], |name| Self::named(name) <= room);
         let name = Mark::text(name, [corner[0] + Self::KEY, middle], Anchor::LEFT, TextSize::Body, InkRole::Text);
         panel.marks.push(Mark { tag, ..name });
         let (at, anchor) = if self.is_below() {
@@ -352,10 +371,9 @@ impl Target<'_> {
         let [x, y] = self.at([0.0; 2]);
         self.segment("reference", [[min[0], y], [max[0], y]], InkRole::Grid, 1.0);
         self.segment("reference", [[x, min[1]], [x, max[1]]], InkRole::Grid, 1.0);
-        let far = (max[0] - x).max(x - min[0]).hypot((max[1] - y).max(y - min[1]));
-        let step = self.frame.round(far);
+        let step = self.frame.step();
         let small = |text: String, places: Vec<Place>| Label::new(text, InkRole::Weak, places);
-        for count in 1..=(far / (step * self.frame.scale)) as u32 {
+        for count in 1..=(self.frame.reach() / (step * self.frame.scale)) as u32 {
             let radius = f64::from(count) * step;
             self.outline(&format!("length {}", number(radius)), &circle(radius), InkRole::Grid, (1.0, Dash::Solid));
             if named || self.area.width() > 180.0 {
@@ -367,8 +385,9 @@ impl Target<'_> {
                         if v == 0.0 { (Anchor::TOP, [0.0, 2.0]) } else { (Anchor::LEFT, [3.0, 0.0]) };
                     Place { at, anchor, offset }
                 });
-                let inside = places.into_iter().filter(|place| self.area.contains(place.at)).collect();
-                texts.push(small(number(radius), inside));
+                let words = number(radius);
+                let inside = places.into_iter().filter(|place| self.holds(&words, place)).collect();
+                texts.push(small(words, inside));
             }
         }
         let [across, up] = axes(plane).0;
@@ -413,26 +432,26 @@ impl Patches<'_> {
             let [x, y] = target.at([0.0; 2]);
             let toward = [(x - end[0]).signum(), (y - end[1]).signum()];
             let places = [7.0, 12.0].into_iter().flat_map(|far| Place::around(end, toward, far));
-            let holds = |place: &Place| {
-                let width = text_width(&words, TextSize::Small);
-                let left = place.at[0] + place.offset[0] - place.anchor.0 * width;
-                left > target.area.min[0] && left + width < target.area.max[0]
-            };
-            let places: Vec<Place> = places.filter(holds).collect();
+            let places: Vec<Place> = places.filter(|place| target.holds(&words, place)).collect();
             let label = Label::new(words, if is_pointed { InkRole::Text } else { InkRole::Weak }, places);
             texts.push(Label { tag, always: is_pointed, ..label });
         }
     }
 }
 
-/// What the plots show, in sentences, with the numbers of each camera.
-pub(super) fn words(scene: &Scene<'_>, plane: DifferencePlane) -> String {
+/// What the plots of a size show, in sentences.
+pub(super) fn words(scene: &Scene<'_>, plane: DifferencePlane, size: [f64; 2]) -> String {
+    let all = compared(scene, plane).map_or_else(|_| Vec::new(), |(_, all)| all);
+    let frame = Frame::of(scene, &all, plane, size);
+    let heads = Heads::new(&frame, &all, axes(plane).1, scene.document.exaggeration.note());
+    let numbers = if heads.form == 2 { " Numbers: mean length." } else { "" };
+    let step = number(frame.step());
     let [x, y] = axes(plane).0;
     let by_eq_13 = plane == DifferencePlane::Lab && scene.document.transform == TransformChoice::Paper;
     let eq_13 = if by_eq_13 { " L*a*b* of Eq 13 colors, which is not that of the CIE." } else { "" };
     format!(
         "Arrows: {x}, {y} from the reference, in the patch's color; all on one scale, double tip: beyond the frame. Cross: mean \
-         vector. Dashed ring: 95 % quantile of the lengths.{}{eq_13}",
+         vector. Dashed ring: 95 % quantile of the lengths. Gray rings: every {step}.{}{numbers}{eq_13}",
         limit_words(scene, plane)
     )
 }

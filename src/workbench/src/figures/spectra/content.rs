@@ -5,7 +5,7 @@ use chromascope_core::spectral::{SpectralDistribution, StatedUncertainty};
 use chromascope_figure::{Dash, Ink, InkRole, LegendEntry, Mark, Shape, Stroke, Tag};
 
 use super::Built;
-use crate::document::{SetKind, Subset};
+use crate::document::SetKind;
 use crate::figures::band;
 use crate::figures::chromaticity::{self, id};
 use crate::figures::data_set::{Name, channel_symbol};
@@ -80,10 +80,10 @@ pub(super) fn patches(scene: &Scene<'_>, built: &mut Built) -> Option<Content> {
             names.push(Name { text: patch.name.clone(), ink: InkRole::Text.into(), points });
         }
     }
-    let five = scene.document.subset == Subset::Five && scene.has_five();
     // Without the chart's edition, which the caption of a figure has: a small pane holds it in one line.
     let chart = scene.document.chart.split(" (").next().unwrap_or_default();
-    let note = if five { "patches: the paper's five".to_owned() } else { format!("patches: {chart}") };
+    let note =
+        if scene.subset().is_some() { "patches: the paper's five".to_owned() } else { format!("patches: {chart}") };
     let range = [0.0, top * 1.08];
     Some(Content { quantity: "reflectance", note, marks, names, common: Vec::new(), range, weight: 1.3 })
 }

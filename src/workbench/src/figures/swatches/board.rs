@@ -3,7 +3,7 @@
 use chromascope_core::query::PatchColor;
 use chromascope_figure::{Anchor, Ink, InkRole, Mark, Rect, Shape, Tag, TextSize, clip_segment, text_width, wrapped};
 
-use super::{Row, short};
+use super::{NARROW, Row, short};
 use crate::document::{Exaggeration, SetKind};
 use crate::figures::chromaticity::id;
 use crate::figures::look::{FigureLook, SwatchStyle};
@@ -25,6 +25,8 @@ const LEAST_ROW: f64 = 16.0;
 const LEAST_COLOR: f64 = 13.0;
 /// The least length of a bar beside its number in a chart.
 const LEAST_TRACK: f64 = 8.0;
+/// Number of charts above which narrow ones have bars without numbers, which their heads and the table tell.
+const CROWDED: usize = 4;
 /// Share of the bar from which on a chart has a difference's number: others are read by pointing at them.
 const NUMBERED: f64 = 0.4;
 /// Distance of the lines over colors that a screen cannot show.
@@ -162,8 +164,10 @@ impl<'a> Board<'a> {
         let rows: Vec<&Row> = rows.iter().filter(|row| !(is_split && row.source.is_reference)).collect();
         let columns = chart_columns(self.names.len());
         let lines = self.names.len().div_ceil(columns).max(1);
+        let is_crowded = rows.len() > CROWDED && size[0] < NARROW;
         let least = match (self.look.without_bars, columns * lines) {
             (_, count) if count > 60 => [8.0; 2],
+            (false, _) if is_crowded => [16.0, Note::Bar.height() + LEAST_COLOR],
             (false, _) => [self.widest_number(&rows) + 4.0 + LEAST_TRACK, Note::Close.height() + LEAST_COLOR],
             (true, _) => [12.0; 2],
         };
@@ -373,5 +377,5 @@ fn chart_cell(charts: usize, columns: usize, lines: usize, size: [f64; 2], least
     let width = |across: f64| (size[0] / across - 2.0 * MARGIN) / columns as f64 - GAP / 2.0;
     let most = size[0] / (columns as f64 * (least[0] + GAP / 2.0) + 2.0 * MARGIN);
     let across = (most as usize).clamp(1, charts.max(1));
-    (across, [width(across as f64).clamp(least[0], least[0].max(1.6 * least[1])), least[1]])
+    (across, [width(across as f64).clamp(least[0], least[0].max(2.4 * least[1])), least[1]])
 }
