@@ -40,14 +40,14 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let diagram = shown(PaneKind::CHROMATICITY);
     if diagram {
         let thick = line(InkRole::Reference, Marker::Plus, 4.0);
-        let words = "thick line: the reference's Planckian locus, from 20000 K (blue) to 1000 K (red)";
+        let words = "thick line: Planckian locus of the reference, 1000 to 20000 K";
         entry(ui, words, |ui, rect| paint::key(ui.painter(), rect, &thick, &theme));
         let colored = line(InkRole::Sensor(0), Marker::Circle, 2.0);
-        let words = "colored lines and points: each camera's locus and patches; tails lead to the reference's";
+        let words = "colored: each camera's locus, patches with tails to the reference's";
         entry(ui, words, |ui, rect| paint::key(ui.painter(), rect, &colored, &theme));
     }
     if shown(PaneKind::DIFFERENCES) || diagram && context.scene.document.overlays.multiples {
-        let words = "arrows: how far off and whereto each patch is; a cross at their mean, 95 % within the dashed ring";
+        let words = "arrows: each patch's error; cross: their mean; dashed ring: 95 % of them";
         entry(ui, words, |ui, rect| {
             let stroke = egui::Stroke::new(2.0, theme.role(InkRole::Rgb(ARROW)));
             ui.painter().arrow(rect.left_center() + Vec2::new(2.0, 4.0), Vec2::new(20.0, -8.0), stroke);
@@ -62,7 +62,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         widgets::note(ui, words);
     }
     ui.separator();
-    ui.weak("Hover to read, click to select, Esc to deselect.");
+    ui.weak("Hover reads, click selects, Esc deselects.");
 }
 
 fn starts(ui: &mut Ui, context: &mut PaneContext<'_>) {

@@ -138,7 +138,7 @@ pub fn differences(scene: &Scene<'_>) -> Vec<Alternative> {
 
 pub fn exaggerations(scene: &Scene<'_>) -> Vec<Alternative> {
     let line = |to: Exaggeration| {
-        let line = Line { note: to.why().to_owned(), also: format!("magnify x{}", to.factor()), ..Line::new(to.label(), false) };
+        let line = Line { note: to.why().to_owned(), also: "magnify".to_owned(), ..Line::new(to.label(), false) };
         offer(line, scene.document.exaggeration == to, SceneAction::SetExaggeration(to))
     };
     Exaggeration::ALL.map(line).into()
