@@ -5,15 +5,15 @@ mod controls;
 use std::sync::Arc;
 
 use chromascope_core::correction::RgbTransform;
-use chromascope_core::query::{Ask as _, PatchColorsQuery};
 use chromascope_core::query::correction::CorrectionUnder;
+use chromascope_core::query::{Ask as _, PatchColorsQuery};
 use chromascope_figure::{Cell, Table};
 use egui::{Id, Label, Rect, RichText, ScrollArea, Sense, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
+use crate::document::SetKind;
 use crate::export::profile::{CorrectionFile, CorrectionFileError, CorrectionFileQuery, aligned, check_lines};
 use crate::figures::correction as figure;
-use crate::document::SetKind;
 use crate::paint::{self, PlotOptions};
 use crate::panes::widgets;
 use crate::panes::widgets::table::{DataTable, Drawn};

@@ -5,8 +5,8 @@ use egui::{Align2, CursorIcon, FontId, Key, Painter, Pos2, Rect, Sense, Stroke, 
 
 use crate::figures::chromaticity::id;
 use crate::figures::render::headline::{Detail, Measure};
-use crate::names;
 use crate::figures::render::{difference as maps, index_of};
+use crate::names;
 use crate::paint::{self, PictureQuery};
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::pick_list::{self, Line};
