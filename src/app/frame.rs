@@ -23,12 +23,6 @@ const DISMISS: f32 = 72.0;
 
 impl ChromascopeApp {
     pub(super) fn show(&mut self, ui: &mut Ui) {
-        // A tooltip stays while the pointer rests on its control: it goes as a window comes that has the keys to itself.
-        let (key, is_open) = (Id::unique("window over all"), ui.memory(|memory| memory.top_modal_layer().is_some()));
-        if !ui.data_mut(|data| std::mem::replace(data.get_temp_mut_or_default(key), is_open)) && is_open {
-            ui.disable();
-            ui.set_opacity(1.0);
-        }
         let theme = Theme::of(ui.visuals()).with_surround(self.view.saved.surround);
         let mut context = PaneContext {
             panes: panes::ALL,
