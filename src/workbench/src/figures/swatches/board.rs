@@ -23,8 +23,8 @@ const BESIDE: f64 = 52.0;
 const LEAST_ROW: f64 = 16.0;
 /// The least height of colors above a number in a chart.
 const LEAST_COLOR: f64 = 13.0;
-/// The least width of a swatch without a number in a chart.
-const LEAST_BARE: f64 = 18.0;
+/// The least width of a swatch with its number above the bar in a chart.
+const LEAST_ABOVE: f64 = 18.0;
 /// The least length of a bar beside its number in a chart.
 const LEAST_TRACK: f64 = 8.0;
 /// Share of the bar from which on a chart has a difference's number: others are read by pointing at them.
@@ -356,10 +356,11 @@ fn chart_columns(count: usize) -> usize {
 }
 
 /// Number of charts side by side, and the size of a swatch with its note: the largest that fits and fills the area, no wider than
-/// twice its height, without numbers where only so all fit, else the least high, and the charts scroll.
+/// twice its height, with numbers above the bars where only so all fit, else the least high, and the charts scroll.
 fn chart_cell(charts: usize, columns: usize, lines: usize, size: [f64; 2], least: [f64; 2]) -> (usize, [f64; 2]) {
-    let bare = [least[0].min(LEAST_BARE), least[1].min(LEAST_COLOR + Note::Bar.height())];
-    let largest = [least, bare].into_iter().find_map(|least| largest_cell(charts, [columns, lines], size, least));
+    let narrow = (least[0] - 4.0 - LEAST_TRACK).max(LEAST_ABOVE.min(least[0]));
+    let above = [narrow, LEAST_COLOR + Note::Above.height()];
+    let largest = [least, above].into_iter().find_map(|least| largest_cell(charts, [columns, lines], size, least));
     largest.unwrap_or_else(|| {
         let width = |across: f64| (size[0] / across - 2.0 * MARGIN) / columns as f64 - GAP / 2.0;
         let most = size[0] / (columns as f64 * (least[0] + GAP / 2.0) + 2.0 * MARGIN);
