@@ -40,7 +40,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let diagram = shown(PaneKind::CHROMATICITY);
     if diagram {
         let thick = line(InkRole::Reference, Marker::Plus, 4.0);
-        let words = "thick line: Planckian locus of the reference, 1000 to 20000 K";
+        let words = "thick line: Planckian locus of the reference, 20000 to 1000 K";
         entry(ui, words, |ui, rect| paint::key(ui.painter(), rect, &thick, &theme));
         let colored = line(InkRole::Sensor(0), Marker::Circle, 2.0);
         let words = "colored: each camera's locus, patches with tails to the reference's";
