@@ -354,8 +354,8 @@ pub struct Shown<'a> {
     /// A pane in place of the right column.
     pub card: Option<PaneKind>,
     pub numerics: bool,
-    /// The view that the settings are of has some.
-    pub has_settings: bool,
+    /// The lower pane of the right column has something to show: settings of a view, curves of a file.
+    pub has_lower: bool,
     /// The column that a narrow window omits lies over the center.
     pub column_over: bool,
 }
@@ -374,7 +374,7 @@ const COLUMN: f32 = 316.0;
 
 /// Arranges a workspace in an area. `was_narrow` prevents a window at the limit from flickering.
 pub fn arrange(shown: &Shown<'_>, area: Rect, was_narrow: bool) -> Arrangement {
-    let &Shown { workspace, layout, maximized, card, numerics, has_settings, .. } = shown;
+    let &Shown { workspace, layout, maximized, card, numerics, has_lower, .. } = shown;
     if let Some(pane) = maximized {
         return Arrangement { panes: vec![(pane, area)], narrow: was_narrow, ..Arrangement::default() };
     }
@@ -390,7 +390,7 @@ pub fn arrange(shown: &Shown<'_>, area: Rect, was_narrow: bool) -> Arrangement {
         return made;
     }
     let [upper, lower, right_upper, right_lower] = *layout.places(workspace);
-    let right_lower = right_lower.filter(|_| has_settings || workspace != Workspace::Compare);
+    let right_lower = right_lower.filter(|_| has_lower);
     let rows = if card.is_some() { [card, None] } else { [right_upper, right_lower] };
     let rest = match workspace {
         Workspace::Compare => compare(&mut made, shown, area, rows, column),

@@ -419,6 +419,10 @@ impl ChromascopeApp {
 
     /// Shows a pane as the printed page, or goes back to where the page was opened.
     fn figure_page(&mut self, ctx: &egui::Context, pane: PaneKind) {
+        let places = self.view.places().into_iter().flatten();
+        let all = std::iter::once(pane).chain(places).chain([PaneKind::CHROMATICITY]);
+        // A pane whose figure waits for data, such as curves without a file, leaves the page to another.
+        let pane = all.into_iter().find(|pane| self.on_paper(*pane).is_some()).unwrap_or(pane);
         if self.view.page.take().is_none() && self.printed(pane).is_some() {
             self.view.page = Some(pane);
             self.view.say(format!("{} as it is printed. Esc goes back.", panes::title(pane)));
@@ -435,11 +439,14 @@ impl ChromascopeApp {
 
     /// The pane's figure on paper, or a message that it has none.
     fn printed(&mut self, pane: PaneKind) -> Option<Figure> {
-        let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
-        let kind = panes::by_kind(pane).and_then(|pane| pane.figure);
-        let paper = &self.view.saved.page.paper;
-        let figure = kind.and_then(|kind| kind.on_paper(paper, &scene, &self.look(pane, &scene)));
+        let figure = self.on_paper(pane);
         self.checked(pane, figure)
+    }
+
+    fn on_paper(&self, pane: PaneKind) -> Option<Figure> {
+        let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
+        let kind = panes::by_kind(pane)?.figure?;
+        kind.on_paper(&self.view.saved.page.paper, &scene, &self.look(pane, &scene))
     }
 
     fn checked(&mut self, pane: PaneKind, figure: Option<Figure>) -> Option<Figure> {

@@ -15,7 +15,7 @@ use crate::panes::widgets::lines;
 use crate::scene::Scene;
 use crate::theme::{self, FOCUS, Theme, UNIT};
 use crate::view::View;
-use crate::workspaces::{Shown, Side, Slot, Splitter, arrange};
+use crate::workspaces::{PaneKind, Shown, Side, Slot, Splitter, Workspace, arrange};
 
 /// Height of a notice, and width of the button that takes it away.
 const NOTICE: f32 = 24.0;
@@ -70,7 +70,14 @@ impl ChromascopeApp {
             maximized: page.or(context.view.maximized),
             card: context.view.card,
             numerics: context.view.numerics,
-            has_settings: of.is_some_and(|view| view.settings.is_some()),
+            has_lower: match context.view.saved.workspace {
+                Workspace::Compare => of.is_some_and(|view| view.settings.is_some()),
+                // The Inspector has the curves of what is selected.
+                Workspace::Data => {
+                    !context.view.is_shown(PaneKind::INSPECTOR) && context.view.import.selected.is_some()
+                }
+                Workspace::Rank => false,
+            },
             column_over: context.view.column_over,
         };
         self.arrangement = arrange(&shown, area, self.arrangement.narrow);

@@ -66,7 +66,7 @@ impl ChromascopeApp {
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
         let view = &self.view.correction;
         let Some(camera) = view.camera(&scene) else {
-            return self.view.fail("No camera is compared: choose one in the pane Correction.");
+            return self.view.fail("No camera is compared: choose one on the page Matrix of Rank.");
         };
         let query = CorrectionFileQuery::new(&scene, view.request(&scene, &camera));
         self.files.make_to_save(move || {

@@ -4,10 +4,11 @@ use chromascope_core::colorimetry::{UvPrime, Xy};
 use chromascope_core::light::{CctError, RadiationConstants};
 use chromascope_core::query::NearestBlackBodyQuery;
 use chromascope_figure::{Shape, TextSize, text_width};
-use egui::{Align2, Id, Pos2, Rect, RectAlign, Tooltip, Ui, Vec2};
+use egui::{Align2, Id, Pos2, Rect, RectAlign, RichText, Tooltip, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
 use crate::action::{Action, SceneAction};
+use crate::command::Command;
 use crate::document::{Diagram, FIT_TARGET, SetKind};
 use crate::figures::chromaticity::{self, Built};
 use crate::figures::look::DifferencePlane;
@@ -15,7 +16,7 @@ use crate::figures::strip;
 use crate::paint::{self, Emphasis, PlotOptions};
 use crate::panes::widgets;
 use crate::plot_item::{PickIndex, PlotItem};
-use crate::theme::UNIT;
+use crate::theme::{ROW, UNIT};
 use crate::view::DiagramFit;
 use crate::workspaces::PaneKind;
 
@@ -43,9 +44,18 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::lines::caution(ui, body, context);
     let multiples = context.scene.document.overlays.multiples;
     let below = if multiples { MULTIPLES } else { STRIP };
-    let strip_height = if body.height() >= WITH_STRIP { below } else { 0.0 };
-    let cut = body.bottom() - strip_height;
+    let fits = body.height() >= WITH_STRIP;
+    let strip_height = if fits { below } else { 0.0 };
+    let cut = body.bottom() - if fits { below } else { ROW };
     diagram(ui, body.with_max_y(cut), context);
+    if !fits {
+        let what = if multiples { "the cameras' differences" } else { "the strip over the temperature" };
+        let words = format!("No room for {what}: fill the window (F)");
+        let line = RichText::new(words).small().color(context.theme.weak);
+        if ui.put(body.with_min_y(cut), egui::Button::new(line).frame(false)).clicked() {
+            context.push(Command::Maximize(PANE.kind));
+        }
+    }
     let place = body.with_min_y(cut + UNIT);
     if strip_height > 0.0 && multiples {
         widgets::differences::plots(ui, place, DifferencePlane::UvPrime, context);

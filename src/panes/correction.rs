@@ -4,14 +4,19 @@ mod controls;
 
 use std::sync::Arc;
 
+use chromascope_core::correction::RgbTransform;
 use chromascope_core::query::correction::CorrectionUnder;
+use chromascope_core::query::{Ask as _, PatchColorsQuery};
+use chromascope_figure::{Cell, Table};
 use egui::{Id, Label, Rect, RichText, ScrollArea, Sense, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
+use crate::document::SetKind;
 use crate::export::profile::{CorrectionFile, CorrectionFileError, CorrectionFileQuery, aligned, check_lines};
 use crate::figures::correction as figure;
 use crate::paint::{self, PlotOptions};
 use crate::panes::widgets;
+use crate::panes::widgets::table::{DataTable, Drawn};
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
@@ -89,17 +94,62 @@ fn under_light(ui: &mut Ui, file: &CorrectionFile, name: &str, under: &Correctio
     let theme = context.theme;
     let kelvin = under.temperature.map_or(String::new(), |kelvin| format!(", {:.0} K", kelvin.get()));
     let matrix = file.transform_text(under);
-    section(ui, &format!("XYZ from balanced RGB under {name}{kelvin}"), Some(&matrix), "Copy the matrix");
-    mono(ui, &matrix);
-    section(ui, "Errors over the training reflectances", None, "");
-    mono(ui, &file.errors_text(under));
-    section(ui, "White, and narrow blue LEDs (20 nm)", None, "");
-    for check in std::iter::once(&under.report.white).chain(&under.report.blue) {
-        let [numbers, remark] = check_lines(check, file.of.metric);
-        mono(ui, &numbers);
-        let color = if check.is_negative() { theme.warning } else { theme.weak };
-        ui.add(Label::new(RichText::new(remark).small().color(color)).wrap());
+    section(ui, &format!("XYZ from balanced RGB under {name}{kelvin}"), Some(&matrix), "Copy the matrix, all digits");
+    match &under.report.transform {
+        RgbTransform::Matrix(matrix) => mono(ui, &aligned(*matrix, 4)),
+        RgbTransform::RootPolynomial(_) => mono(ui, &matrix),
     }
+    section(ui, "Errors over the training reflectances", None, "");
+    errors(ui, file, under, context);
+    section(ui, "White, and narrow blue LEDs (20 nm)", None, "");
+    let checks: Vec<_> = std::iter::once(&under.report.white).chain(&under.report.blue).collect();
+    let lines: Vec<[String; 2]> = checks.iter().map(|check| check_lines(check, file.of.metric)).collect();
+    for (at, [numbers, remark]) in lines.iter().enumerate() {
+        mono(ui, numbers);
+        // What holds for several lights is said once, below the last.
+        if lines.get(at + 1).is_none_or(|next| next[1] != *remark) {
+            let color = if checks[at].is_negative() { theme.warning } else { theme.weak };
+            ui.add(Label::new(RichText::new(remark).small().color(color)).wrap());
+        }
+    }
+}
+
+/// What the correction mends: a bar up to the mean, a line up to the 95 % quantile, and the worst color.
+fn errors(ui: &mut Ui, file: &CorrectionFile, under: &CorrectionUnder, context: &PaneContext<'_>) {
+    let (scene, theme, report) = (&context.scene, context.theme, &under.report);
+    let rows = [("uncorrected", report.before), ("training", report.training), ("leave-one-out", report.left_out)];
+    let head = format!("{} of {}", file.of.metric, report.count);
+    let mut table = Table::new([head.as_str(), "", "mean", "95 %", "max", "worst"]);
+    for column in &mut table.columns {
+        column.decimals = Some(2);
+    }
+    let rendering = scene.rendering_of(SetKind::Observer, &scene.document.reference).ok();
+    let patches = &file.of.training;
+    let colors =
+        rendering.map(|rendering| scene.results.ask(&PatchColorsQuery { rendering, patches: patches.clone() }));
+    for (label, summary) in rows {
+        let Some(of) = summary else {
+            table.push([label, "", "", "", "", "undefined"].map(Cell::from));
+            continue;
+        };
+        let color = colors.as_ref().and_then(|colors| Some((**colors).as_ref().ok()?.get(of.worst)?.srgb.bytes));
+        let name = patches.patches().get(of.worst).map_or("", |patch| &patch.name);
+        let worst = Cell::from(name).with(|note| {
+            note.swatch = color.map(|color| [color; 2]);
+            name.clone_into(&mut note.hint);
+        });
+        let [mean, p95, max] = [of.mean, of.p95, of.max].map(Cell::from);
+        table.push([Cell::from(label), Cell::from(""), mean, p95, max, worst]);
+    }
+    let longest = rows.iter().filter_map(|(_, of)| Some(of.as_ref()?.p95)).fold(f64::MIN_POSITIVE, f64::max);
+    let draw = |painter: &egui::Painter, place: Rect, row: usize| {
+        let Some(of) = rows[row].1 else { return };
+        let at = |value: f64| place.left() + place.width() * (value / longest) as f32;
+        painter.hline(at(of.mean)..=at(of.p95), place.center().y, egui::Stroke::new(1.5, theme.weak));
+        painter.rect_filled(place.with_max_x(at(of.mean)), 0.0, theme.weak);
+    };
+    let drawn = Drawn { column: 1, width: 84.0, draw: &draw };
+    DataTable::new(PANE.kind, &format!("errors {head}"), &table).with_drawn(drawn).show_compact(ui, context);
 }
 
 fn section(ui: &mut Ui, caption: &str, copied: Option<&str>, hint: &str) {
@@ -144,7 +194,7 @@ fn between(ui: &mut Ui, file: &CorrectionFile, context: &mut PaneContext<'_>) {
 fn aces(ui: &mut Ui, file: &CorrectionFile, context: &PaneContext<'_>) {
     match &file.idt {
         Ok(idt) => {
-            section(ui, "ACES IDT (rawtoaces)", Some(&aligned(idt.matrix)), "Copy the IDT matrix");
+            section(ui, "ACES IDT (rawtoaces)", Some(&aligned(idt.matrix, 7)), "Copy the IDT matrix");
             mono(ui, &file.idt_text(idt));
         }
         Err(error) => {

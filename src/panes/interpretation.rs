@@ -33,7 +33,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let inner = body.shrink2(Vec2::new(2.0 * UNIT, 0.0));
     let Some(shown) = context.import_selection() else {
         let mut child = ui.new_child(UiBuilder::new().id_salt("nothing recognized").max_rect(inner));
-        widgets::note(&mut child, "No file.");
+        widgets::note(&mut child, "No file is open: drop one on the window, or select a set of the library.");
         return;
     };
     context.view.import.unseen.remove(&shown.item);

@@ -73,12 +73,11 @@ fn pairs(ui: &mut Ui, place: Rect, camera: &SensorId, found: &FoundMetamers, con
         "",
         "The pair as the reference renders it",
         "The pair as the camera renders it",
-        "",
         "Difference to the reference observer.",
+        "",
         "Largest difference of a balanced camera channel, each through the CIE lightness function (0 to 100).",
     ];
-    let heads =
-        ["reflectance", "reference", "camera", "its metamer", "ΔE*00 reference", "ΔL* camera"].into_iter().zip(hints);
+    let heads = ["reflectance", "reference", "camera", "ΔE*00", "its metamer", "ΔL* camera"].into_iter().zip(hints);
     let mut table = Table::new(heads.map(|(head, hint)| Column {
         hint: hint.to_owned(),
         decimals: Some(2),
@@ -93,7 +92,7 @@ fn pairs(ui: &mut Ui, place: Rect, camera: &SensorId, found: &FoundMetamers, con
             let named = pair.map(|[r, g, b]| format!("#{r:02x}{g:02x}{b:02x}")).join(" ");
             Cell::from(named).with(|note| note.swatch = Some(pair))
         });
-        table.push([Cell::from(a), seen, recorded, Cell::from(b), Cell::from(reference), Cell::from(camera)]);
+        table.push([Cell::from(a), seen, recorded, Cell::from(reference), Cell::from(b), Cell::from(camera)]);
     }
     let item = |row: usize| {
         let source = Some(camera.clone());

@@ -400,7 +400,7 @@ fn transform(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let hint = "Color transform from camera RGB to XYZ. Paper matrix: camera and RGB observer signals through the \
                 matrix of Eq 13, CIE observers directly. Fitted: a 3×3 matrix for each sensor, fitted to a CIE \
                 observer over 190 training reflectances under the light, or another correction; training \
-                reflectances and weights are chosen in the pane Correction.";
+                reflectances and weights are chosen under Matrix in Rank.";
     actions(ui, ("Color transform", hint), &shown, context, conditions::transforms);
 }
 

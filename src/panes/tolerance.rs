@@ -90,7 +90,7 @@ fn sources(ui: &mut Ui, context: &mut PaneContext<'_>) {
             return;
         }
         Err(NothingRendered) => {
-            ui.label("Nothing is rendered: tick a camera, and choose a mesh in Render.");
+            ui.label("Nothing is rendered: tick a camera, and choose a mesh in Pictures.");
             return;
         }
     };

@@ -34,8 +34,8 @@ use crate::workspaces::{PaneKind, Side, Workspace};
 
 pub use lines::{focus_rim, labeled, named};
 
-pub const WHAT_YOU_SEE: &str = "A camera's spectral sensitivities differ from the eye's, so it records other colors \
-                                than a person sees. Chromascope shows how far off each camera is.";
+pub const WHAT_YOU_SEE: &str = "A camera's spectral sensitivities differ from the eye's, and so do its colors. \
+                                Chromascope shows how far off each camera is.";
 
 /// Passes after which a control that is not drawn is no longer sought.
 const SOUGHT: u64 = 4;

@@ -1,6 +1,6 @@
 //! Differences large enough: the exaggeration of what is drawn, and each camera's differences from the reference.
 
-use chromascope::action::{Action, SceneAction};
+use chromascope::action::{Action, CompareAction, SceneAction};
 use chromascope::catalog::Catalog;
 use chromascope::document::{Document, Exaggeration, SetKind, TransformChoice};
 use chromascope::figures::differences::{self, KIND};
@@ -8,11 +8,14 @@ use chromascope::figures::look::{DifferencePlane, FigureLook};
 use chromascope::figures::{chromaticity, swatches};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
+use chromascope::workspaces::PaneKind;
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::query::{Ask as _, LocusDeviationsQuery, LocusQuery, NearestBlackBodyQuery};
 use chromascope_figure::{FigureRoom, Shape, text_area};
 use egui_kittest::kittest::Queryable as _;
 
+use crate::import_switches::says;
+use crate::keyboard::press_like_keyboard;
 use crate::screenshots::open_with;
 
 fn with<T>(document: &Document, read: impl FnOnce(&Scene<'_>) -> T) -> T {
@@ -81,6 +84,46 @@ fn swatches_of_24_are_large_on_the_first_screen_and_no_words_touch() {
             assert!(other.is_none(), "{words} touches {other:?}");
         }
     });
+}
+
+#[test]
+fn charts_of_a_fourth_camera_are_all_in_sight() {
+    let mut document = Document::colorimetry();
+    let camera = CompareAction::Add(SetKind::Camera, "Sony ILCE-9".to_owned());
+    Action::Compare(camera).apply(&mut document);
+    let harness = open_with(document.clone(), [1280.0, 800.0], egui::Theme::Dark);
+    let rect = harness.get_by_role_and_label(egui::accesskit::Role::Canvas, "Swatches").rect();
+    let size = [f64::from(rect.width()), f64::from(rect.height())];
+    with(&document, |scene| {
+        let built = swatches::build(scene, &FigureLook::default(), size);
+        assert!(built.height <= size[1] + 0.5, "{} of {}", built.height, size[1]);
+    });
+}
+
+#[test]
+fn what_has_no_room_is_named_and_what_is_seen_is_explained() {
+    let mut window = open_with(Document::colorimetry(), [900.0, 600.0], egui::Theme::Dark);
+    assert!(says(&window, "No room for the cameras' differences"));
+    window.state_mut().view.show(PaneKind::SPECTRA);
+    window.run_steps(3);
+    assert!(!says(&window, "No room"));
+    let mut window = open_with(Document::colorimetry(), [1280.0, 800.0], egui::Theme::Dark);
+    assert!(!says(&window, "No room"));
+    assert!(says(&window, "thick line: ") && says(&window, "arrows: ") && says(&window, "swatches: "));
+    window.state_mut().view.show(PaneKind::SPECTRA);
+    window.run_steps(3);
+    assert!(!says(&window, "thick line: ") && !says(&window, "arrows: "));
+}
+
+#[test]
+fn x10_typed_as_letters_exaggerates() {
+    let mut window = open_with(Document::colorimetry(), [1280.0, 800.0], egui::Theme::Dark);
+    window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::K);
+    window.run_steps(3);
+    press_like_keyboard(&mut window, "x10");
+    window.key_press(egui::Key::Enter);
+    window.run_steps(3);
+    assert_eq!(window.state().history.document().exaggeration, Exaggeration::Ten);
 }
 
 #[test]

@@ -46,7 +46,7 @@ fn a_selection_says_how_to_end_it() {
 fn without_a_selection_it_says_what_is_seen() {
     let window = window();
     assert!(says(&window, "A camera's spectral sensitivities differ from the eye's"));
-    assert!(says(&window, "Hover to read, click to select, Esc to deselect."));
+    assert!(says(&window, "Hover reads, click selects, Esc deselects."));
     assert!(says(&window, "Ready. Drop a spectrum or camera file anywhere."));
     let cameras = Catalog::built_in().of_kind(SetKind::Camera).count();
     assert!(says(&window, &format!("3 of {cameras} cameras computed")));

@@ -190,6 +190,8 @@ fn ctrl_e_prints_a_pane_that_has_a_figure() {
         (PaneKind::CHROMATICITY, SIZE, PaneKind::CHROMATICITY),
         (PaneKind::RENDER, [900.0, 600.0], PaneKind::RENDER),
         (PaneKind::SPECTRA, SIZE, PaneKind::SPECTRA),
+        (PaneKind::RECORDED, SIZE, PaneKind::METRICS),
+        (PaneKind::IMPORT, SIZE, PaneKind::CHROMATICITY),
     ] {
         let mut window = window(PaneKind::CHROMATICITY, size);
         window.get_by_label("Compared").click();
@@ -199,6 +201,7 @@ fn ctrl_e_prints_a_pane_that_has_a_figure() {
         window.state_mut().view.focused = Some(pane);
         window.run_steps(3);
         window.state().render_service.wait();
+        window.state().later.wait();
         window.run_steps(3);
         window.key_press_modifiers(Modifiers::COMMAND, Key::E);
         window.run_steps(3);

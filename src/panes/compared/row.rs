@@ -147,10 +147,8 @@ fn label(ui: &Ui, rect: Rect, row: Rect, id: Id, source: &ComparedSensor, contex
     response.context_menu(|ui| menu(ui, source, context));
     // All else stands in the inspector, where it covers nothing.
     if cut || source.label != source.name {
-        response.on_hover_ui(|ui| {
-            ui.set_max_width(row.width());
-            ui.strong(&source.name);
-        });
+        let sides = [egui::RectAlign::RIGHT, egui::RectAlign::BOTTOM_START];
+        widgets::read_beside(&response, row, sides, std::slice::from_ref(&source.name));
     }
 }
 

@@ -212,7 +212,12 @@ fn panes(context: &PaneContext<'_>) -> Vec<Found> {
         let on = context.view.is_shown(pane.kind);
         let words =
             if pane.tab == pane.title { pane.title.to_owned() } else { format!("{}: {}", pane.tab, pane.title) };
-        found.push(Found::new("Workspaces and panes", words, Command::GoTo(pane.kind)).on(on));
+        let also = match pane.kind {
+            PaneKind::LIGHT => "judge this light rendering index",
+            PaneKind::METHODS => "numerics bench",
+            _ => "",
+        };
+        found.push(Found::new("Workspaces and panes", words, Command::GoTo(pane.kind)).on(on).also(also));
     }
     found
 }

@@ -17,9 +17,12 @@ use crate::panes::widgets::{self, WHAT_YOU_SEE, focus_rim, lines};
 use crate::scene::Scene;
 use crate::theme::{ROW, Theme, UNIT};
 use crate::view::tour::Tour;
+use crate::workspaces::PaneKind;
 
 const CARD: Vec2 = Vec2::new(200.0, 92.0);
 const KEY: f32 = 26.0;
+/// Color of the arrow in the key.
+const ARROW: [u8; 3] = [196, 78, 88];
 
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let theme = context.theme;
@@ -33,26 +36,33 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         marker: Some(marker),
         fill: Some(role.into()),
     };
-    let thick = line(InkRole::Reference, Marker::Plus, 4.0);
-    let words = "thick line: the reference observer's Planckian locus, from 20000 K (blue) to 1000 K (red)";
-    entry(ui, words, |ui, rect| paint::key(ui.painter(), rect, &thick, &theme));
-    let colored = line(InkRole::Sensor(0), Marker::Circle, 2.0);
-    entry(ui, "colored lines: the Planckian locus of each camera", |ui, rect| {
-        paint::key(ui.painter(), rect, &colored, &theme);
-    });
-    let point = line(InkRole::Sensor(1), Marker::Square, 1.2);
-    entry(ui, "points: chart patches; the tail leads to the reference's", |ui, rect| {
-        paint::key(ui.painter(), rect, &point, &theme);
-    });
-    entry(ui, "swatches: left the reference, right the camera; the bar is the difference", |ui, rect| {
-        swatch(ui, rect, &theme);
-    });
+    let shown = |pane| context.view.is_shown(pane);
+    let diagram = shown(PaneKind::CHROMATICITY);
+    if diagram {
+        let thick = line(InkRole::Reference, Marker::Plus, 4.0);
+        let words = "thick line: Planckian locus of the reference, 20000 to 1000 K";
+        entry(ui, words, |ui, rect| paint::key(ui.painter(), rect, &thick, &theme));
+        let colored = line(InkRole::Sensor(0), Marker::Circle, 2.0);
+        let words = "colored: each camera's locus, patches with tails to the reference's";
+        entry(ui, words, |ui, rect| paint::key(ui.painter(), rect, &colored, &theme));
+    }
+    if shown(PaneKind::DIFFERENCES) || diagram && context.scene.document.overlays.multiples {
+        let words = "arrows: each patch's error; cross: their mean; dashed ring: 95 % of them";
+        entry(ui, words, |ui, rect| {
+            let stroke = egui::Stroke::new(2.0, theme.role(InkRole::Rgb(ARROW)));
+            ui.painter().arrow(rect.left_center() + Vec2::new(2.0, 4.0), Vec2::new(20.0, -8.0), stroke);
+        });
+    }
+    if shown(PaneKind::SWATCHES) {
+        let words = "swatches: left the reference, right the camera; the bar is the difference";
+        entry(ui, words, |ui, rect| swatch(ui, rect, &theme));
+    }
     if let Some(words) = caveat(context) {
         ui.add_space(UNIT);
         widgets::note(ui, words);
     }
     ui.separator();
-    ui.weak("Hover to read, click to select, Esc to deselect.");
+    ui.weak("Hover reads, click selects, Esc deselects.");
 }
 
 fn starts(ui: &mut Ui, context: &mut PaneContext<'_>) {

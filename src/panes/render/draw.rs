@@ -6,6 +6,7 @@ use egui::{Align2, CursorIcon, FontId, Key, Painter, Pos2, Rect, Sense, Stroke, 
 use crate::figures::chromaticity::id;
 use crate::figures::render::headline::{Detail, Measure};
 use crate::figures::render::{difference as maps, index_of};
+use crate::names;
 use crate::paint::{self, PictureQuery};
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::pick_list::{self, Line};
@@ -137,7 +138,17 @@ fn caption(
         .map_or(0.0, |note| lines::right_aligned(ui, rect, note, TextStyle::Small, color) + 8.0);
     let words = title(source);
     let left = Rect::from_min_max(rect.min + Vec2::new(20.0, 0.0), rect.max - Vec2::new(right, 0.0));
-    let cut = lines::elided(ui, left, &words, TextStyle::Body, color);
+    let fits = |words: &str| lines::width(ui, words, TextStyle::Body) <= left.width();
+    let shown = match &words {
+        words if fits(words) => words.clone(),
+        _ if source.is_reference => "Reference".to_owned(),
+        _ => {
+            let all: Vec<String> = context.scene.visible_sources().into_iter().map(|source| source.label).collect();
+            names::fitted(&source.label, &all, fits)
+        }
+    };
+    let cut = shown != words || !fits(&shown);
+    lines::elided(ui, left, &shown, TextStyle::Body, color);
     let said = note.map_or_else(|| words.clone(), |note| format!("{words}, {}", note.full));
     let (id, name) = (ui.scope_id().with(("caption", &words)), format!("Picture: {said}"));
     let response = widgets::named(ui, cell.caption, id, egui::Role::Label, &name);

@@ -80,7 +80,7 @@ pub(super) fn ask(ui: &Ui, layout: &PictureLayout, context: &mut PaneContext<'_>
     if let Some(Err(NoPictures::Image(why))) = render_service.frame().map(|frame| frame.pictures()) {
         let name = context.scene.document.render.mesh.name();
         let remedy = match &*why {
-            ImagePicturesError::Quantity => "; choose Reflectance or Radiance in Render settings",
+            ImagePicturesError::Quantity => "; choose Reflectance or Radiance in the settings of Pictures",
             _ => "",
         };
         return Err(format!("{name}: {why}{remedy}."));

@@ -291,8 +291,8 @@ fn lens(ui: &mut Ui, settings: &RenderSettings, context: &mut PaneContext<'_>) {
 }
 
 fn tolerance(ui: &mut Ui, is_enabled: bool, settings: &RenderSettings, context: &mut PaneContext<'_>) {
-    let hint = "Largest error of a picture, relative to its brightest sample, with the quality Within a tolerance. The \
-                Numerics workspace shows the method for each camera.";
+    let hint = "Largest error of a picture, relative to its brightest sample, with the quality Within a tolerance. \
+                Help > Numerics shows the method for each camera.";
     caption(ui, "Tolerance", context);
     let id = ui.make_persistent_id("tolerance field");
     let field = |ui: &mut Ui| widgets::tolerance::field(ui, id, settings.tolerance, "", hint, context);

@@ -294,8 +294,12 @@ pub fn menu(
 }
 
 fn within(ui: &mut Ui, key: Id, name: &str, theme: &Theme, all: &[Line]) -> Option<usize> {
-    let longest = all.iter().map(|line| line.words.as_str()).max_by_key(|words| words.chars().count()).unwrap_or("");
-    ui.set_min_width((lines::width(ui, longest, TextStyle::Body) + GUTTER + 6.0 * UNIT).clamp(LEAST, MOST));
+    let widest = |words: fn(&Line) -> &str, style| {
+        let longest = all.iter().map(words).max_by_key(|words| words.chars().count()).unwrap_or("");
+        lines::width(ui, longest, style)
+    };
+    let wide = widest(|line| &line.words, TextStyle::Body) + widest(|line| &line.note, TextStyle::Small);
+    ui.set_min_width((wide + GUTTER + 6.0 * UNIT).clamp(LEAST, MOST));
     let mut state: PickState = ui.data(|data| data.get_temp(key)).unwrap_or_default();
     let mut places = Vec::new();
     let is_short = all.iter().filter(|line| !line.is_heading).count() <= SHORT;

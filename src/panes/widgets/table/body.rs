@@ -30,6 +30,10 @@ pub(super) struct Body<'a> {
     id: Id,
     /// The first column stays in place.
     sticks: bool,
+    /// A column is cut at the right, or out of sight there.
+    goes_on: bool,
+    /// Air at the right of cells that a narrow compact table does without.
+    spared: f32,
     frozen: bool,
     pub(super) hovered: Option<usize>,
     pub(super) clicked_head: Option<usize>,
@@ -58,6 +62,8 @@ impl<'a> Body<'a> {
             cursor: look.cursor,
             id: Id::unique(("table", of.id)),
             sticks: false,
+            goes_on: false,
+            spared: 0.0,
             frozen: false,
             hovered: None,
             clicked_head: None,
@@ -105,7 +111,7 @@ impl<'a> Body<'a> {
         let mut child = cut(ui, self.id.with("body"), rect);
         let mut widths: Vec<f32> = self.shown.iter().map(|&column| self.layouts[column].width).collect();
         if self.of.compact {
-            fit(&mut widths, rect.width());
+            self.spared = fit(&mut widths, rect.width());
             return self.lay_out(&mut child, rect, &widths);
         }
         // A last column whose text is cut has what is left, but for the scroll bar.
@@ -130,6 +136,15 @@ impl<'a> Body<'a> {
             table = table.scroll_to_row(row as u64, None);
         }
         table.show(&mut child, self);
+        if self.goes_on {
+            let at = egui::pos2(rect.right() - UNIT, rect.top() + 0.5 * self.head_height());
+            let stroke = Stroke::new(1.5, self.theme.text);
+            let ground = Rect::from_center_size(at, Vec2::new(2.0 * UNIT, HEAD_LINE));
+            child.painter().rect_filled(ground, 0.0, self.theme.panel);
+            for wing in [-4.0, 4.0] {
+                child.painter().line_segment([at + Vec2::new(2.0, 0.0), at + Vec2::new(-2.0, wing)], stroke);
+            }
+        }
     }
 
     /// Width that the columns of a compact table need.
@@ -167,7 +182,7 @@ impl<'a> Body<'a> {
 
     fn inner(&self, cell: Rect) -> Rect {
         let [left, right] = air(self.of.compact);
-        Rect::from_min_max(cell.min + Vec2::new(left, 0.0), cell.max - Vec2::new(right, 0.0))
+        Rect::from_min_max(cell.min + Vec2::new(left, 0.0), cell.max - Vec2::new(right - self.spared, 0.0))
     }
 
     fn arrow(&self, ui: &Ui, rect: Rect, descending: bool) {
@@ -241,7 +256,8 @@ impl<'a> Body<'a> {
 }
 
 /// Spreads columns over a width; or takes the spare air of all but the first, and then narrows the first, which holds names.
-fn fit(widths: &mut [f32], width: f32) {
+/// Returns the air that was taken.
+fn fit(widths: &mut [f32], width: f32) -> f32 {
     let others = widths.len().saturating_sub(1).max(1) as f32;
     let spare = ((widths.iter().sum::<f32>() - width) / others).clamp(0.0, SPARE);
     widths.iter_mut().skip(1).for_each(|other| *other -= spare);
@@ -249,14 +265,16 @@ fn fit(widths: &mut [f32], width: f32) {
     if let Some(first) = widths.first_mut() {
         *first = (*first + width - all).clamp(first.min(24.0), *first);
     }
+    spare
 }
 
 /// Air of a compact table's column that it can do without.
 const SPARE: f32 = 2.0 * UNIT;
 
 impl TableDelegate for Body<'_> {
-    fn prepare(&mut self, _: &PrefetchInfo) {
+    fn prepare(&mut self, seen: &PrefetchInfo) {
         self.frozen = false;
+        self.goes_on = seen.visible_columns.end < self.shown.len();
     }
 
     fn default_row_height(&self) -> f32 {
@@ -284,6 +302,7 @@ impl Body<'_> {
         let index = self.shown[place];
         let (column, layout) = (&self.of.table.columns[index], self.layouts[index]);
         let rect = ui.max_rect();
+        self.goes_on |= rect.right() > ui.clip_rect().right() + UNIT;
         let sense = if self.of.compact { Sense::hover() } else { Sense::click() };
         let response = ui.interact(rect, self.id.with(("head", index)), sense);
         lines::labeled(&response, Role::ColumnHeader, column.full_name());

@@ -26,9 +26,10 @@ pub fn model_of(name: &str) -> &str {
     name.split_once(" (").map_or(name, |(model, _)| model)
 }
 
-/// A name without case, spaces and punctuation, for comparing.
+/// A name without case, spaces and punctuation, for comparing. A multiplication sign is the x that is typed for it.
 pub fn folded(name: &str) -> String {
-    name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
+    let typed = name.chars().map(|c| if c == '×' { 'x' } else { c });
+    typed.filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
 
 /// Orders numbers within names by their value: `FL2` before `FL10`.

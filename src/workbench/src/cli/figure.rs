@@ -34,7 +34,10 @@ pub(super) fn run(arguments: &FigureArguments, matches: &ArgMatches) -> Result<(
     let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
     let paper = arguments.paper.paper();
     let Some(kind) = arguments.kind.0 else {
-        return refused("KIND", "skipped work is a table: `chromascope render --stats -`, or Statistics in Numerics");
+        return refused(
+            "KIND",
+            "skipped work is a table: `chromascope render --stats -`, or Statistics under Help > Numerics",
+        );
     };
     let mut look = made::look((kind, arguments.viewpoint), &scene, (&paper, recorded))?;
     look.difference_plane = arguments.plane;

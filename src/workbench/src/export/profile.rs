@@ -237,7 +237,7 @@ impl CorrectionFile {
         let rows = [("training", summary)];
         let table = error_table(&format!("\u{394}E*00 of {}", errors.len()), &rows, &self.of.idt.training);
         let note = idt_note(idt).map_or(String::new(), |note| format!("\n{note}"));
-        format!("{balance}{}\n\n{IDT_FIT}\n{table}{note}", aligned(idt.matrix))
+        format!("{balance}{}\n\n{IDT_FIT}\n{table}{note}", aligned(idt.matrix, 7))
     }
 
     fn under(&self, text: &mut String, under: &CorrectionUnder) {
@@ -250,15 +250,15 @@ impl CorrectionFile {
         if let Some(dng) = self.dng_matrices(under) {
             let [r, g, b] = dng.balance;
             if self.has_ratio().is_ok() {
-                let _ = writeln!(text, "\nbalance {r:.6} {g:.6} {b:.6}\nDNG ColorMatrix\n{}", aligned(dng.color));
+                let _ = writeln!(text, "\nbalance {r:.6} {g:.6} {b:.6}\nDNG ColorMatrix\n{}", aligned(dng.color, 7));
             }
-            let _ = writeln!(text, "DNG ForwardMatrix\n{}", aligned(dng.forward));
+            let _ = writeln!(text, "DNG ForwardMatrix\n{}", aligned(dng.forward, 7));
         }
     }
 
     pub fn transform_text(&self, under: &CorrectionUnder) -> String {
         match &under.report.transform {
-            RgbTransform::Matrix(matrix) => aligned(*matrix),
+            RgbTransform::Matrix(matrix) => aligned(*matrix, 7),
             RgbTransform::RootPolynomial(polynomial) => polynomial_table(polynomial),
         }
     }
@@ -344,11 +344,12 @@ pub fn idt_note(idt: &Idt) -> Option<String> {
     })
 }
 
-/// A matrix as rows of aligned numbers.
-pub fn aligned(matrix: DMat3) -> String {
+/// A matrix as rows of aligned numbers with so many decimals.
+pub fn aligned(matrix: DMat3, decimals: usize) -> String {
+    let width = decimals + 5;
     let row = |row: usize| {
         let DVec3 { x, y, z } = matrix.row(row);
-        format!("{x:12.7}{y:12.7}{z:12.7}")
+        format!("{x:width$.decimals$}{y:width$.decimals$}{z:width$.decimals$}")
     };
     [row(0), row(1), row(2)].join("\n")
 }

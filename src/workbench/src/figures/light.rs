@@ -33,10 +33,11 @@ pub fn bars(rendition: &Rendition, area: Rect) -> Option<Panel> {
     let low = values.iter().map(|(_, value)| *value).fold(0.0, f64::min);
     let floor = if low < 0.0 { ((low - 20.0) / 50.0).floor() * 50.0 } else { 0.0 };
     let names = values.iter().enumerate().map(|(index, (name, _))| (index as f64 + 0.5, name.clone())).collect();
-    // Numbers that are wider than a bar's place stand in two lines in turn.
+    // Numbers that are wider than a bar's place stand in two lines in turn. A full bar is read from the axis.
     let count = values.len() as f64;
-    let above = values.iter().filter(|(_, value)| *value >= 0.0);
-    let widest = above.map(|(_, value)| text_width(&fixed(*value, 0), TextSize::Small)).fold(0.0, f64::max);
+    let numbers = || values.iter().enumerate().filter(|(index, (_, value))| *index == 0 || *value < 99.5);
+    let above = numbers().filter(|(_, (_, value))| *value >= 0.0);
+    let widest = above.map(|(_, (_, value))| text_width(&fixed(*value, 0), TextSize::Small)).fold(0.0, f64::max);
     let staggers = widest + NUMBER_GAP > (area.width() - Projection::LEFT) / count;
     let beyond = if staggers { 0.3 } else { 0.0 };
     let x = Axis::new("test color (Ra: mean of R1 to R8)", [-beyond, count + beyond])
@@ -56,7 +57,7 @@ pub fn bars(rendition: &Rendition, area: Rect) -> Option<Panel> {
     }
     let mut panel = panel.with_headroom(if staggers { 32.0 } else { 18.0 });
     let mut labels = Labels::new(&panel);
-    for (index, (_, value)) in values.iter().enumerate() {
+    for (index, (_, value)) in numbers() {
         let at = [index as f64 + 0.5, *value];
         let (anchor, up) = if *value < 0.0 { (Anchor::TOP, -1.0) } else { (Anchor::BOTTOM, 1.0) };
         let places = [1.0, 15.0].map(|lift| Place { at, anchor, offset: [0.0, -up * lift] });

@@ -39,7 +39,7 @@ pub struct CorrectionFileQuery {
     pub lights: Vec<String>,
     /// Symbol of the metric of the errors.
     pub metric: &'static str,
-    pub(super) training: Shared<PatchSet>,
+    pub training: Shared<PatchSet>,
     sheet: CorrectionSheetQuery,
     pub(super) idt: IdtQuery,
     ratio: ChannelRatioQuery,

@@ -23,6 +23,8 @@ const BESIDE: f64 = 52.0;
 const LEAST_ROW: f64 = 16.0;
 /// The least height of colors above a number in a chart.
 const LEAST_COLOR: f64 = 13.0;
+/// The least width of a swatch with its number above the bar in a chart.
+const LEAST_ABOVE: f64 = 18.0;
 /// The least length of a bar beside its number in a chart.
 const LEAST_TRACK: f64 = 8.0;
 /// Number of charts above which narrow ones have bars without numbers, which their heads and the table tell.
@@ -358,24 +360,36 @@ fn chart_columns(count: usize) -> usize {
 }
 
 /// Number of charts side by side, and the size of a swatch with its note: the largest that fits and fills the area, no wider than
-/// twice its height, else the least high, and the charts scroll.
+/// twice its height, with numbers above the bars where only so all fit, else the least high, and the charts scroll.
 fn chart_cell(charts: usize, columns: usize, lines: usize, size: [f64; 2], least: [f64; 2]) -> (usize, [f64; 2]) {
-    let mut best = (1, [0.0_f64, 0.0_f64]);
+    let narrow = (least[0] - 4.0 - LEAST_TRACK).max(LEAST_ABOVE.min(least[0]));
+    let above = [narrow, LEAST_COLOR + Note::Above.height()];
+    let largest = [least, above].into_iter().find_map(|least| largest_cell(charts, [columns, lines], size, least));
+    largest.unwrap_or_else(|| {
+        let width = |across: f64| (size[0] / across - 2.0 * MARGIN) / columns as f64 - GAP / 2.0;
+        let most = size[0] / (columns as f64 * (least[0] + GAP / 2.0) + 2.0 * MARGIN);
+        let across = (most as usize).clamp(1, charts.max(1));
+        (across, [width(across as f64).clamp(least[0], least[0].max(2.4 * least[1])), least[1]])
+    })
+}
+
+/// The largest size of a swatch, at least as given, with which all charts fit.
+fn largest_cell(
+    charts: usize,
+    [columns, lines]: [usize; 2],
+    size: [f64; 2],
+    least: [f64; 2],
+) -> Option<(usize, [f64; 2])> {
+    let mut best: Option<(usize, [f64; 2])> = None;
     for across in 1..=charts.max(1) {
         let down = charts.div_ceil(across).max(1);
         let width = (size[0] - MARGIN * (2.0 * across as f64)) / across as f64 / columns as f64 - GAP / 2.0;
         let height = ((size[1] - MARGIN * (1.0 + down as f64)) / down as f64 - HEAD) / lines as f64 - GAP / 2.0;
         let cell = [width.min(2.0 * height), height.min((1.2 * width + 8.0).max(least[1]))];
         let fits = cell[0] >= least[0] && cell[1] >= least[1];
-        if fits && cell[0].min(cell[1]) > best.1[0].min(best.1[1]) {
-            best = (across, cell);
+        if fits && best.is_none_or(|(_, best)| cell[0].min(cell[1]) > best[0].min(best[1])) {
+            best = Some((across, cell));
         }
     }
-    if best.1[0] > 0.0 {
-        return best;
-    }
-    let width = |across: f64| (size[0] / across - 2.0 * MARGIN) / columns as f64 - GAP / 2.0;
-    let most = size[0] / (columns as f64 * (least[0] + GAP / 2.0) + 2.0 * MARGIN);
-    let across = (most as usize).clamp(1, charts.max(1));
-    (across, [width(across as f64).clamp(least[0], least[0].max(2.4 * least[1])), least[1]])
+    best
 }
