@@ -119,7 +119,8 @@ impl Built {
         };
         let least = bounds.min.y + half.y + GAP * bounds.radius;
         let rise = (bounds.max.y - half.y - least).max(0.0) / f32::from(LEVELS);
-        let levels: Vec<(f32, f32)> = (0..=LEVELS).map(|k| least + rise * f32::from(k)).map(|y| (y, reach(y))).collect();
+        let levels: Vec<(f32, f32)> =
+            (0..=LEVELS).map(|k| least + rise * f32::from(k)).map(|y| (y, reach(y))).collect();
         let nearest = levels.iter().map(|level| level.1).fold(f32::INFINITY, f32::min);
         let beside = levels.iter().find(|level| level.1 <= nearest + ROOM * bounds.radius);
         let (level, reach) = beside.copied().unwrap_or((least, nearest));

@@ -74,7 +74,8 @@ fn half_in_shadow() -> MeshQuery {
     let square = |x: [f32; 2], y: f32, z: f32| {
         [Vec3::new(x[0], -y, z), Vec3::new(x[1], -y, z), Vec3::new(x[1], y, z), Vec3::new(x[0], y, z)]
     };
-    let corners = [square([-0.04, 0.04], 0.04, 0.0), square([0.4, 0.6], 0.1, 0.4), square([-0.6, -0.4], 0.1, -0.4)].concat();
+    let corners =
+        [square([-0.04, 0.04], 0.04, 0.0), square([0.4, 0.6], 0.1, 0.4), square([-0.6, -0.4], 0.1, -0.4)].concat();
     let triangles = (0..3).flat_map(|k| [[4 * k, 4 * k + 1, 4 * k + 2], [4 * k, 4 * k + 2, 4 * k + 3]]).collect();
     MeshQuery::Own(Shared::new(Mesh::new(corners, vec![Vec3::Z; 12], triangles).unwrap()))
 }
@@ -157,7 +158,10 @@ fn at_a_shadows_edge_light_falls_as_the_integral_of_each_gaussian() {
             let expected = full * upper_tail(x / SPREADS_MM[k]) - own;
             let found = f64::from(changes[at][k]);
             if places[at].x.abs() < 0.0085 {
-                assert!((found - expected).abs() < 0.02 * full + 0.08 * full * 0.17 / SPREADS_MM[k], "{k} at {x} mm: {found} {expected}");
+                assert!(
+                    (found - expected).abs() < 0.02 * full + 0.08 * full * 0.17 / SPREADS_MM[k],
+                    "{k} at {x} mm: {found} {expected}"
+                );
                 checked += 1;
             }
             kept[k] += found;
