@@ -17,8 +17,6 @@ pub struct SkyFineness {
     pub directions: usize,
     /// Samples in a row that share one mean.
     pub run: usize,
-    /// True if samples within a run lie between its first and the next one's; else they are as its first.
-    pub mixed: bool,
 }
 
 /// Exactness of the spectral integrals of a picture.
@@ -86,11 +84,9 @@ impl Quality {
     pub fn sky_fineness(self, samples: u32) -> SkyFineness {
         let pixel = samples.max(1) as usize;
         match self {
-            Self::Preview => SkyFineness { directions: 16, run: 4 * pixel, mixed: true },
-            Self::Full => SkyFineness { directions: 48, run: pixel, mixed: false },
-            Self::Fine | Self::Reference | Self::Regimes | Self::Within(_) => {
-                SkyFineness { directions: 1024, run: 1, mixed: false }
-            }
+            Self::Preview => SkyFineness { directions: 16, run: 4 * pixel },
+            Self::Full => SkyFineness { directions: 48, run: pixel },
+            Self::Fine | Self::Reference | Self::Regimes | Self::Within(_) => SkyFineness { directions: 1024, run: 1 },
         }
     }
 

@@ -100,9 +100,6 @@ impl SkyImage {
                     _ => sample.at(at as usize),
                 });
             }
-            if view.fineness.mixed && samples.len() == chunk.len() {
-                mix(&mut samples, chunk, columns, run);
-            }
             samples
         };
         let samples: Vec<SkySample> = seen.par_chunks(CHUNK).flat_map_iter(chunk).collect();
@@ -112,23 +109,6 @@ impl SkyImage {
     /// Visible shares in the order of [`super::LitSamples::seen`].
     pub fn samples(&self) -> &[SkySample] {
         &self.samples
-    }
-}
-
-/// Puts samples within a run between its first and that of the next run, where all are of one row without a gap.
-fn mix(samples: &mut [SkySample], places: &[u32], columns: usize, run: usize) {
-    for next in run..samples.len() {
-        let (first, column) = (next - run, places[next] as usize % columns);
-        if column == 0 || !column.is_multiple_of(run) || places[next] - places[first] != run as u32 {
-            continue;
-        }
-        let (a, b) = (samples[first], samples[next]);
-        for within in 1..run {
-            let t = within as f32 / run as f32;
-            let at = |of: fn(&SkySample) -> f32| of(&a) + t * (of(&b) - of(&a));
-            samples[first + within] =
-                SkySample { diffuse: at(|s| s.diffuse), coherent: at(|s| s.coherent), behind: at(|s| s.behind) };
-        }
     }
 }
 
