@@ -1,6 +1,7 @@
 //! Pictures of meshes: each stage against a second way, skipping against not skipping, one thread against many.
 
 mod diffuse;
+mod diffusion;
 mod drawn;
 mod fixture;
 mod ground;

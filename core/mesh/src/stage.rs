@@ -6,8 +6,7 @@ use std::f32::consts::TAU;
 
 /// Azimuth that the chart faces, in degrees to the right of the mesh's front: where the eye is at first.
 const FACING_DEG: f32 = -25.0;
-/// Height of the chart's middle above that of the mesh, width of a chart of 6 × 4 patches and depth, in radii of the mesh.
-const MIDDLE: f32 = 0.0;
+/// Width of a chart of 6 × 4 patches and depth, in radii of the mesh.
 const WIDTH: f32 = 0.72;
 const DEPTH: f32 = 0.015;
 /// Share of its cell that a patch fills, and the frame's width in cells.
@@ -17,10 +16,13 @@ const FRAME: f32 = 0.35;
 const GAP: f32 = 0.1;
 /// From the middle of the mesh towards where the chart faces, in radii: before the shadow of the mesh.
 const AHEAD: f32 = 0.3;
-/// Radius of the ground in radii of the mesh.
-const GROUND: f32 = 12.0;
-/// Its division; rings lie closer towards the middle.
-const RINGS: u32 = 56;
+/// Heights that are tried for the chart, and how much more room than needed beside the mesh it may take, in radii.
+const LEVELS: u8 = 16;
+const ROOM: f32 = 0.03;
+/// Radii of the ground's first ring and of its end, a level horizon, in radii of the mesh.
+const GROUND: [f32; 2] = [0.04, 300.0];
+/// Its division; each ring is wider than the last by the same factor.
+const RINGS: u32 = 64;
 const SECTORS: u32 = 96;
 
 /// Share of a cropped mesh's height that a picture of the whole leaves out: of a head on its shoulders, all below the chest.
@@ -109,13 +111,21 @@ impl Built {
         let [columns, rows] = layout(patches).map(f32::from);
         let cell = bounds.radius * WIDTH / (columns + 2.0 * FRAME);
         let half = Vec3::new(columns, rows, 0.0) * (0.5 * cell) + Vec3::new(FRAME, FRAME, 0.0) * cell;
-        let level = bounds.center().y + MIDDLE * bounds.radius;
-        // Beside all that is at its height, as near as that lets it.
-        let heights = level - half.y - GAP * bounds.radius..level + half.y + 3.0 * GAP * bounds.radius;
-        let beside = |p: &&Vec3| heights.contains(&p.y);
-        let reach = mesh.positions().iter().filter(beside).map(|p| (*p - bounds.center()).dot(right));
+        // Beside all that is at its height, as low as it stands nearest.
+        let reach = |level: f32| {
+            let heights = level - half.y - GAP * bounds.radius..level + half.y + 3.0 * GAP * bounds.radius;
+            let beside = mesh.positions().iter().filter(|p| heights.contains(&p.y));
+            beside.map(|p| (*p - bounds.center()).dot(right)).fold(0.0, f32::max)
+        };
+        let least = bounds.min.y + half.y + GAP * bounds.radius;
+        let rise = (bounds.max.y - half.y - least).max(0.0) / f32::from(LEVELS);
+        let levels: Vec<(f32, f32)> =
+            (0..=LEVELS).map(|k| least + rise * f32::from(k)).map(|y| (y, reach(y))).collect();
+        let nearest = levels.iter().map(|level| level.1).fold(f32::INFINITY, f32::min);
+        let beside = levels.iter().find(|level| level.1 <= nearest + ROOM * bounds.radius);
+        let (level, reach) = beside.copied().unwrap_or((least, nearest));
         let middle = bounds.center().with_y(level)
-            + right * (reach.fold(0.0, f32::max) + GAP * bounds.radius + half.x)
+            + right * (reach + GAP * bounds.radius + half.x)
             + ahead * (AHEAD * bounds.radius);
         let depth = DEPTH * bounds.radius;
         self.cuboid(middle - ahead * depth, [right * half.x, up * half.y, ahead * depth]);
@@ -136,8 +146,8 @@ impl Built {
         let first = self.positions.len() as u32;
         self.positions.push(middle);
         for ring in 1..=RINGS {
-            let share = ring as f32 / RINGS as f32;
-            let radius = GROUND * bounds.radius * share * share;
+            let share = (ring - 1) as f32 / (RINGS - 1) as f32;
+            let radius = bounds.radius * GROUND[0] * (GROUND[1] / GROUND[0]).powf(share);
             let at = |sector: u32| {
                 let (sin, cos) = (TAU * sector as f32 / SECTORS as f32).sin_cos();
                 middle + Vec3::new(sin, 0.0, cos) * radius

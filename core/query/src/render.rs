@@ -12,12 +12,15 @@ use super::ask::{Ask, Query, Shared};
 use chromascope_color::accuracy::RelTolerance;
 use chromascope_color::camera::RenderingError;
 use chromascope_color::camera::rendering::{raw, under_light, white_divisors};
+use chromascope_color::spectral::grid::wavelength_nm;
 use chromascope_color::spectral::{GridSpectrum, Sensor};
 use chromascope_mesh::stage::Stage;
 use chromascope_mesh::{Mesh, Part, ShadowTree, fern, head, shapes};
+use chromascope_render::reflectance::diffusion;
 use chromascope_render::reflectance::leaf::{LeafModel, ScatteredShare};
 use chromascope_render::reflectance::power::{LAMBDA_0_NM, factor};
 use chromascope_render::reflectance::{Geometry, Normalization, Specular, Surface, wavelength_power};
+use chromascope_render::render::diffusion::changes;
 use chromascope_render::render::{
     CameraImage, Demand, GeometryImage, MattePart, Plan, Quality, RasterSize, Reach, ShadingImage, Shadows, Sky,
     SpectralWeights, Transmitted, VertexImage, Visibility,
@@ -211,6 +214,8 @@ pub struct ShadingQuery {
     pub open_sky: bool,
     /// True if the ground sends light up.
     pub bounce: bool,
+    /// True if light spreads within the body as within skin. It needs a geometry that lists all samples, and a mesh in meters.
+    pub diffusion: bool,
 }
 
 impl Query for ShadingQuery {
@@ -219,11 +224,20 @@ impl Query for ShadingQuery {
     const CAPACITY: usize = 6;
 
     fn bytes(shading: &Self::Answer) -> usize {
-        shading.as_ref().map_or(0, |shading| size_of_val(shading.shades()) + size_of_val(shading.coherent_samples()))
+        shading.as_ref().map_or(0, |shading| {
+            let spread = shading.spread().map_or(0, size_of_val);
+            size_of_val(shading.shades()) + size_of_val(shading.coherent_samples()) + spread
+        })
     }
 
     fn answer(&self, ask: &impl Ask) -> Self::Answer {
         let mut shading = self.lit(ask)?;
+        if self.diffusion && shading.vertices().is_none() {
+            let seen = &self.geometry.visibility;
+            let (mesh, visibility) = (ask.ask(&seen.mesh), ask.ask(seen));
+            let changes = changes(&mesh, (*visibility).as_ref()?, &shading, &ask.stop())?;
+            shading = shading.spread_by(changes);
+        }
         if self.bounce {
             let bounce = ask.ask(&BounceQuery(self.geometry.clone()));
             shading = shading.over(Arc::clone((*bounce).as_ref()?));
@@ -302,10 +316,11 @@ impl SpectralWeightsQuery {
         let untinted = surface.specular() == Specular::Fresnel && lobes;
         let through = shading.geometry().reach().through.then_some(*surface);
         let ground = ground.filter(|_| shading.bounce().is_some()).map(|ground| (*surface, ground.clone()));
-        if !untinted && through.is_none() && sky.is_none() && ground.is_none() {
+        let spread = shading.spread().is_some();
+        if !untinted && through.is_none() && sky.is_none() && ground.is_none() && !spread {
             return ask.ask(self);
         }
-        ask.ask(&PictureWeightsQuery { own: self.clone(), untinted, through, sky, ground })
+        ask.ask(&PictureWeightsQuery { own: self.clone(), untinted, through, sky, ground, spread })
     }
 }
 
@@ -321,6 +336,8 @@ struct PictureWeightsQuery {
     sky: Option<Surface>,
     /// The surface over a ground, and the ground's reflectance.
     ground: Option<(Surface, Shared<GridSpectrum>)>,
+    /// True if light spreads within it as within skin.
+    spread: bool,
 }
 
 impl Query for PictureWeightsQuery {
@@ -353,6 +370,13 @@ impl Query for PictureWeightsQuery {
             let reflectance = ask.ask(&SkyReflectanceQuery { surface: *surface, reading: self.own.reading });
             own.bounce = Some(Arc::new(reflectance.signals(&twice)));
         }
+        if self.spread {
+            let mut spread = [[0.0; 3]; 3];
+            for (totals, reflectance) in spread.iter_mut().zip(&*ask.ask(&SpreadQuery(self.own.reflectance.clone()))) {
+                *totals = of(&SpectralWeightsQuery { reflectance: reflectance.clone(), ..self.own.clone() })?.totals();
+            }
+            own.spread = Some(spread);
+        }
         Ok(own)
     }
 }
@@ -360,6 +384,26 @@ impl Query for PictureWeightsQuery {
 fn product(a: &GridSpectrum, b: &GridSpectrum) -> GridSpectrum {
     let mut values = a.values().iter().zip(b.values());
     GridSpectrum::from_fn(|_| values.next().map_or(0.0, |(a, b)| a * b))
+}
+
+/// Parts of a reflectance whose light leaves skin spread by each of a few radii ([`diffusion::shares`]).
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+struct SpreadQuery(Shared<GridSpectrum>);
+
+impl Query for SpreadQuery {
+    type Answer = [Shared<GridSpectrum>; 3];
+    const NAME: &'static str = "spread in skin";
+    const ALWAYS_COMPLETE: bool = true;
+    const CAPACITY: usize = 16;
+
+    fn answer(&self, _: &impl Ask) -> Self::Answer {
+        let of = |(index, &value): (usize, &f64)| diffusion::shares(wavelength_nm(index), value).map(|s| s * value);
+        let parts: Vec<[f64; 3]> = self.0.values().iter().enumerate().map(of).collect();
+        std::array::from_fn(|k| {
+            let mut values = parts.iter().map(|part| part[k]);
+            Shared::new(GridSpectrum::from_fn(|_| values.next().unwrap_or_default()))
+        })
+    }
 }
 
 /// Share of light that a leaf's surface scatters ([`ScatteredShare`]).

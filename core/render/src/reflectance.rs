@@ -15,6 +15,7 @@
 //! for any σ up to 1 m, any direction, any index, any wavelength.
 
 pub mod coherent;
+pub mod diffusion;
 pub mod fresnel;
 pub mod geometry;
 pub mod hemispherical;

@@ -5,6 +5,7 @@
 //! geometry     visibility × light's place    angles of light and view where it is lit: no spectrum, roughness or camera
 //! shading      geometry × surface            κ, β and factors: the same for every camera
 //! sky          visibility × surface          visible shares of a uniform sky: no light, no camera
+//! diffusion    shading × visibility          light spread within skin by a few radii: no wavelength, no camera
 //! signals      shading × camera              three numbers a sample: no mesh
 //! develop      signals × balance, matrix, exposure    pixels
 //! ```
@@ -13,6 +14,7 @@
 pub mod coherent;
 pub mod develop;
 pub mod diffuse;
+pub mod diffusion;
 pub mod exaggerate;
 pub mod geometry;
 pub mod measure;

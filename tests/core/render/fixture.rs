@@ -107,6 +107,7 @@ impl FrameCase {
                 sky,
                 open_sky: false,
                 bounce: false,
+                diffusion: false,
             },
             reflectance: self.reflectance.clone(),
             parts: self.parts.clone(),

@@ -48,6 +48,9 @@ pub struct SpectralWeights {
     pub sky: Option<Arc<SkySignals>>,
     /// Signals of the surface under as much light from a white ground, where there is a ground.
     pub bounce: Option<Arc<SkySignals>>,
+    /// `∫ C_c S w_k L dλ / ∫ C_c L dλ` with the shares w of light spread within skin
+    /// ([`crate::reflectance::diffusion::shares`]), where it is.
+    pub spread: Option<[[f64; 3]; 3]>,
 }
 
 /// Light that passes through a leaf, equal in all directions.
@@ -115,6 +118,7 @@ impl SpectralWeights {
             transmitted: None,
             sky: None,
             bounce: None,
+            spread: None,
         }
     }
 

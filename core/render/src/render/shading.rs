@@ -5,6 +5,7 @@ mod lobes;
 mod sample;
 
 use super::diffuse::{NEARLY_ROUGH, ROUGH};
+use super::diffusion::Change;
 use super::geometry::{Angles, GeometryImage};
 use super::measure::{LAMBDA_0_NM, SpectralWeights};
 use super::plan::{self, Demand, Plan};
@@ -65,6 +66,7 @@ pub struct ShadingImage {
     range: Option<KappaRange>,
     sky: Option<Sky>,
     bounce: Option<Arc<Vec<Bounce>>>,
+    spread: Option<Vec<Change>>,
 }
 
 /// Smallest and largest κ of the spectral integrals, and how many are below [`NEARLY_ROUGH`] and [`ROUGH`].
@@ -156,6 +158,7 @@ impl ShadingImage {
             range,
             sky: None,
             bounce: None,
+            spread: None,
         })
     }
 
@@ -169,6 +172,17 @@ impl ShadingImage {
     #[must_use]
     pub fn over(self, bounce: Arc<Vec<Bounce>>) -> Self {
         Self { bounce: Some(bounce), ..self }
+    }
+
+    /// This with light spread within skin, by its change at each lit sample.
+    #[must_use]
+    pub fn spread_by(self, changes: Vec<Change>) -> Self {
+        Self { spread: Some(changes), ..self }
+    }
+
+    /// Change of light by its spread within skin at each lit sample, if it spreads.
+    pub fn spread(&self) -> Option<&[Change]> {
+        self.spread.as_deref()
     }
 
     /// Light from the ground at each lit sample, if there is one.

@@ -152,6 +152,13 @@ impl Camera<'_> {
         if let Some(sky) = shading.sky() {
             sky.add(self.measure, shading.geometry().angles(), &mut signals);
         }
+        if let Some((changes, spread)) = shading.spread().zip(self.measure.spread) {
+            signals.par_iter_mut().zip(changes).with_min_len(4096).for_each(|(signal, change)| {
+                for (light, own) in change.iter().zip(spread) {
+                    signal.iter_mut().zip(own).for_each(|(signal, own)| *signal += light * own as f32);
+                }
+            });
+        }
         if let Some(bounce) = shading.bounce() {
             ground::add(bounce, shading.sky(), self.measure, &mut signals);
         }

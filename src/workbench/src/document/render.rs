@@ -99,6 +99,9 @@ pub struct RenderSettings {
     /// True if the head has hair and brows.
     #[serde(default)]
     pub hair: bool,
+    /// True if light spreads within the head's skin.
+    #[serde(default)]
+    pub diffusion: bool,
     /// True if a head is cropped at the chest and the fern is turned.
     #[serde(default)]
     pub composed: bool,
@@ -144,6 +147,7 @@ impl Default for RenderSettings {
             chart: false,
             ground: false,
             hair: false,
+            diffusion: false,
             composed: false,
             thin: false,
             exposure_ev: 0.0,
@@ -192,6 +196,7 @@ impl RenderSettings {
             chart: false,
             ground: false,
             hair: false,
+            diffusion: false,
             composed: false,
             thin: false,
             ..self
@@ -206,6 +211,7 @@ impl RenderSettings {
             chart: true,
             ground: true,
             hair: true,
+            diffusion: true,
             composed: true,
             light_up_deg: 35.0,
             light_right_deg: -30.0,

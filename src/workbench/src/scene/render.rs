@@ -155,7 +155,9 @@ impl Scene<'_> {
         let renderings: Vec<RenderingQuery> = renderings.collect::<Result<_, _>>()?;
         let visibility = VisibilityQuery { mesh, viewpoint, size: finish.size };
         let shadows = if settings.shadows { finish.shadows } else { Shadows::Off };
-        let reach = Reach { everywhere: settings.sky > 0.0 || settings.ground, through: settings.thin };
+        let diffusion = settings.diffusion && settings.mesh == MeshChoice::Head && !finish.open_sky;
+        let everywhere = settings.sky > 0.0 || settings.ground || diffusion;
+        let reach = Reach { everywhere, through: settings.thin };
         let geometry = GeometryQuery { visibility, lighting: settings.lighting()?, shadows, reach };
         let shading = ShadingQuery {
             geometry,
@@ -166,6 +168,7 @@ impl Scene<'_> {
             sky: (settings.sky > 0.0).then(|| settings.sky.to_bits()),
             open_sky: finish.open_sky,
             bounce: self.stage().ground && !finish.open_sky,
+            diffusion,
         };
         Ok(PicturesQuery {
             shading,
