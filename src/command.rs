@@ -24,8 +24,6 @@ pub enum Command {
     Session(SessionCommand),
     Open,
     OpenRecorded,
-    /// Read recorded values from a file.
-    ReadRecorded(std::path::PathBuf),
     OpenFolder,
     Report(ReportOn),
     StopReport,
@@ -58,6 +56,8 @@ pub enum Command {
     CopySet(SetKind, String),
     SaveSet(SetKind, String, Form),
     SaveCorrection(CorrectionForm),
+    /// Save a profile of the camera of a name, as made.
+    SaveProfile(String, CorrectionForm, std::sync::Arc<[u8]>),
     CopyPicture(PaneKind),
     /// Put a pane's figure, the swatches and the conditions on the clipboard as one picture.
     CopyCard(PaneKind),

@@ -20,6 +20,7 @@ pub mod inspector;
 pub mod interpretation;
 pub mod library;
 pub mod light;
+pub mod measure;
 pub mod menu;
 pub mod metamers;
 pub mod methods;
@@ -37,7 +38,7 @@ pub mod tolerance;
 pub mod widgets;
 
 use chromascope_figure::{Figure, FigureRoom};
-use egui::{Rect, Ui};
+use egui::{Id, Rect, Ui, UiBuilder};
 
 use context::{Pane, PaneContext};
 
@@ -62,6 +63,7 @@ pub const ALL: &[&Pane] = &[
     &metamers::PANE,
     &recorded::PANE,
     &library::PANE,
+    &measure::PANE,
     &import::PANE,
     &interpretation::PANE,
     &curves::PANE,
@@ -83,7 +85,9 @@ pub fn title(kind: PaneKind) -> &'static str {
 /// Shows a pane in exactly its rectangle.
 pub fn show(ui: &mut Ui, kind: PaneKind, rect: Rect, context: &mut PaneContext<'_>) {
     if let Some(pane) = by_kind(kind) {
-        (pane.show)(ui, rect, context);
+        // Controls keep their ids, and the keyboard, whatever other panes draw before them.
+        let own = UiBuilder::new().scope_id(Id::unique(("pane", kind))).max_rect(ui.max_rect());
+        (pane.show)(&mut ui.new_child(own), rect, context);
     }
 }
 

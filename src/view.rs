@@ -266,8 +266,6 @@ pub struct Status {
 pub enum Offer {
     Use(SetKind, String),
     Open(PathBuf),
-    /// Read raw values of a chart from a picture.
-    Raw(PathBuf),
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]

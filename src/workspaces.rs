@@ -31,6 +31,8 @@ impl PaneKind {
     pub const SETTINGS: Self = Self::new("RenderSetup");
     /// The user's files, and the text of one with the marks of how it was read.
     pub const IMPORT: Self = Self::new("Import");
+    /// The user's camera from pictures of a chart: all of Data while it is shown.
+    pub const MEASURE: Self = Self::new("Measure");
     pub const CURVES: Self = Self::new("Curves");
     /// Decisions made in reading a file, with switches.
     pub const INTERPRETATION: Self = Self::new("Understood");
@@ -55,7 +57,7 @@ impl PaneKind {
             Self::SETTINGS => Slot::Settings,
             Self::METRICS => Slot::List,
             Self::REPORT_CARD | Self::HEAD_TO_HEAD | Self::CORRECTION | Self::METAMERS | Self::RECORDED => Slot::Page,
-            Self::LIBRARY => Slot::Sets,
+            Self::LIBRARY | Self::MEASURE => Slot::Sets,
             Self::IMPORT => Slot::Text,
             Self::INTERPRETATION => Slot::Reading,
             Self::CURVES => Slot::Curve,
@@ -399,6 +401,10 @@ pub fn arrange(shown: &Shown<'_>, area: Rect, was_narrow: bool) -> Arrangement {
             cut_right(&mut made, area, page, Splitter::Page, |made, right| {
                 stack(made, right, rows, 0.5, Splitter::Curve);
             })
+        }
+        Workspace::Data if upper == Some(PaneKind::MEASURE) => {
+            made.panes.push((PaneKind::MEASURE, area));
+            return made;
         }
         Workspace::Data => cut_right(&mut made, area, column, Splitter::Right, |made, right| {
             stack(made, right, rows, layout.curve_share, Splitter::Curve);

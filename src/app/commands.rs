@@ -14,6 +14,7 @@ use super::ChromascopeApp;
 use crate::action::history::History;
 use crate::action::{Action, CompareAction};
 use crate::catalog::opened::{CLIPBOARD, Request};
+use crate::catalog::recorded_store::is_picture;
 use crate::command::Command;
 use crate::document::SetKind;
 use crate::document::imported::ImportedSet;
@@ -34,7 +35,11 @@ impl ChromascopeApp {
         for event in self.files.poll() {
             match event {
                 FileEvent::Open(paths) if std::mem::take(&mut self.view.recorded.opening) => {
-                    paths.into_iter().take(1).for_each(|path| self.read_recorded(path));
+                    let (pictures, tables): (Vec<_>, Vec<_>) = paths.into_iter().partition(|path| is_picture(path));
+                    tables.into_iter().take(1).for_each(|path| self.read_recorded(path));
+                    for path in pictures {
+                        self.measure_from(path);
+                    }
                 }
                 FileEvent::Open(paths) if self.report_on.is_some() => self.begin_report(&paths),
                 FileEvent::Open(paths) => self.open(paths.into_iter().map(Request::Path).collect()),
@@ -78,10 +83,6 @@ impl ChromascopeApp {
             Command::Open | Command::OpenRecorded | Command::OpenFolder | Command::Report(_) => {
                 self.ask_for_files(&command);
             }
-            Command::ReadRecorded(path) => {
-                self.read_recorded(path);
-                self.go_to(ctx, PaneKind::RECORDED);
-            }
             Command::StopReport => {
                 self.stop_report();
             }
@@ -122,6 +123,7 @@ impl ChromascopeApp {
             Command::CopySet(kind, name) => self.copy_set(ctx, kind, &name),
             Command::SaveSet(kind, name, form) => self.save_set(kind, &name, form),
             Command::SaveCorrection(form) => self.save_correction(form),
+            Command::SaveProfile(camera, form, bytes) => self.save_profile(&camera, form, &bytes),
             Command::CopyPicture(pane) => self.copy_picture(ctx, self.pictured(pane)),
             Command::CopyCard(pane) => self.copy_card(ctx, pane),
             Command::SaveCard(pane) => self.save_card(pane),
@@ -166,7 +168,6 @@ impl ChromascopeApp {
     }
 
     fn read_recorded(&mut self, path: PathBuf) {
-        self.view.recorded.corners.clear();
         self.recorded.read_again(&path);
         self.view.recorded.path = Some(path);
     }

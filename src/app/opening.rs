@@ -11,7 +11,7 @@ use crate::action::{Action, ImportedAction, RenderAction};
 use crate::catalog::import::{Imported, imported};
 use crate::catalog::likeness::Likeness;
 use crate::catalog::opened::{CLIPBOARD, OpenFile, OpenedEvent, Request, Why};
-use crate::catalog::recorded_store::PICTURES;
+use crate::catalog::recorded_store::is_picture;
 use crate::command::Command;
 use crate::document::imported::{Fingerprint, ImportOverrides, ImportedSet, Role};
 use crate::document::render::MeshChoice;
@@ -21,9 +21,6 @@ use crate::panes::import;
 use crate::view::import::{ImportItem, of_a_kind};
 use crate::view::{Offer, Status, Weight};
 use crate::workspaces::{PaneKind, Workspace};
-
-/// Endings of pictures that hold no linear values.
-const OTHER_PICTURES: [&str; 11] = ["jpg", "jpeg", "heic", "dng", "nef", "cr2", "cr3", "arw", "raf", "orf", "rw2"];
 
 /// What came of reading sets again.
 #[derive(Default)]
@@ -64,8 +61,12 @@ impl Reread {
 }
 
 impl ChromascopeApp {
-    pub(super) fn open(&mut self, requests: Vec<Request>) {
+    pub(super) fn open(&mut self, mut requests: Vec<Request>) {
         self.end_tour();
+        self.take_pictures(&mut requests);
+        if requests.is_empty() {
+            return;
+        }
         let memory = self.view.saved.import.clone();
         self.opened.open(requests, move |bytes| {
             if memory.remembered.is_empty() {
@@ -91,9 +92,6 @@ impl ChromascopeApp {
         for file in dropped {
             let path = file.path().to_path_buf();
             if path.exists() {
-                if self.is_picture(&path) {
-                    continue;
-                }
                 requests.push(Request::Path(path));
                 continue;
             }
@@ -106,26 +104,24 @@ impl ChromascopeApp {
         self.open(requests);
     }
 
-    /// Leads a dropped picture to Data, and says what can be done with it.
-    fn is_picture(&mut self, path: &Path) -> bool {
-        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
-        let is_raw = PICTURES.contains(&ending.as_str());
-        if !is_raw && !OTHER_PICTURES.contains(&ending.as_str()) {
-            return false;
-        }
+    /// Takes the pictures out of what is opened, and leads to where a camera is measured from them.
+    fn take_pictures(&mut self, requests: &mut Vec<Request>) {
+        requests.retain(|request| match request {
+            Request::Path(path) if is_picture(path) => {
+                self.measure_from(path.clone());
+                false
+            }
+            _ => true,
+        });
+    }
+
+    /// Shows a picture of a chart where a camera is measured from it.
+    pub(super) fn measure_from(&mut self, path: PathBuf) {
         self.end_tour();
+        self.recorded.read_again(&path);
+        self.view.recorded.photo = Some(path);
         self.show_workspace(Workspace::Data);
-        let name = file_name(path);
-        if is_raw {
-            let can =
-                "the raw values of a 6 × 4 chart in it, if it is linear with 16 bits, are compared with every camera";
-            self.view.say(format!("{name} is a picture: {can}."));
-            self.view.offer(vec![Offer::Raw(path.to_owned())], true);
-        } else {
-            let can = "develop it to a linear 16-bit TIFF, whose chart can be compared with every camera";
-            self.view.fail(format!("{name}: pictures of this kind are not read; {can}."));
-        }
-        true
+        self.view.show(PaneKind::MEASURE);
     }
 
     pub(super) fn take_opened(&mut self) {

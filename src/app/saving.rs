@@ -17,7 +17,7 @@ use crate::export::spectra::{self, Form};
 use crate::figures::render::index_of;
 use crate::figures::{chromaticity, swatches};
 use crate::files::{FileForm, SaveRequest, new_folder};
-use crate::format::io_reason;
+use crate::format::{io_reason, slug};
 use crate::plot_item::SensorId;
 use crate::report::{PAGE, PIXELS, Report, ReportJob};
 use crate::results::Results;
@@ -76,6 +76,12 @@ impl ChromascopeApp {
             let forms = vec![FileForm::of_bytes(form.ending(), bytes)];
             Ok(SaveRequest::new(what, name, forms))
         });
+    }
+
+    pub(super) fn save_profile(&mut self, camera: &str, form: CorrectionForm, bytes: &[u8]) {
+        let name = format!("{}.{}", slug(camera), form.ending());
+        let forms = vec![FileForm::of_bytes(form.ending(), bytes.to_vec())];
+        self.files.ask_to_save(SaveRequest::new(format!("the profile of {camera}"), name, forms));
     }
 
     pub(super) fn card(&mut self, pane: PaneKind) -> Option<Card> {

@@ -4,7 +4,7 @@ use chromascope_core::colorimetry::{UvPrime, Xy};
 use chromascope_core::light::{CctError, RadiationConstants};
 use chromascope_core::query::NearestBlackBodyQuery;
 use chromascope_figure::{Shape, TextSize, text_width};
-use egui::{Align2, Id, Pos2, Rect, RectAlign, RichText, Tooltip, Ui, Vec2};
+use egui::{Align2, Id, Pos2, Rect, RectAlign, Tooltip, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
 use crate::action::{Action, SceneAction};
@@ -51,8 +51,11 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     if !fits {
         let what = if multiples { "the cameras' differences" } else { "the strip over the temperature" };
         let words = format!("No room for {what}: fill the window (F)");
-        let line = RichText::new(words).small().color(context.theme.weak);
-        if ui.put(body.with_min_y(cut), egui::Button::new(line).frame(false)).clicked() {
+        let line = body.with_min_y(cut);
+        let response = ui.interact(line, Id::unique("no room below the diagram"), egui::Sense::click());
+        widgets::labeled(&response, egui::Role::Button, &words);
+        widgets::lines::elided(ui, line, &words, egui::TextStyle::Small, context.theme.weak);
+        if response.clicked() {
             context.push(Command::Maximize(PANE.kind));
         }
     }

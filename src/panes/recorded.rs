@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use chromascope_core::camera::recorded::{RankRange, RecordedFit, RecordedPatch};
 use chromascope_core::query::{RecordedSet, Shared};
-use chromascope_figure::{Axis, Cell, Column, Image, InkRole, Mark, Marker, Panel, Shape, Table, Tag};
+use chromascope_figure::{Cell, Column, Table};
 use egui::{DragValue, Id, Label, Rect, RichText, Sense, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
 use crate::catalog::file_store::FileState;
 use crate::catalog::recorded::Levels;
-use crate::catalog::recorded_store::{RecordedContent, RecordedFile};
+use crate::catalog::recorded_store::RecordedFile;
 use crate::command::Command;
 use crate::document::SetKind;
 use crate::figures::recorded;
@@ -21,17 +21,16 @@ use crate::panes::widgets::table::DataTable;
 use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::Scene;
 use crate::scene::recorded::{RANK_CAUTION, RankedCamera, cause_in_words, range_in_words};
-use crate::theme::{ROW, UNIT};
+use crate::theme::UNIT;
 use crate::view::recorded::RecordedInputs;
 use crate::workspaces::PaneKind;
 
 const REACH: f32 = 10.0;
 /// Share of the squares below which a cause is not named.
 const NOTABLE: f64 = 0.25;
-const CORNERS: [&str; 4] = ["top left", "top right", "bottom right", "bottom left"];
 const ABOUT: &str = "Raw RGB that a camera recorded of known patches, against the sensitivities of every camera. Open a \
-    table with columns patch, R, G, B (of the chart and light chosen above, or with spectra in further columns), or a linear 16-bit TIFF \
-    or PNG of a 6 × 4 chart.";
+    table with columns patch, R, G, B (of the chart and light chosen above, or with spectra in further columns). A picture of a chart \
+    opens in Data, Measure a camera.";
 
 pub const PANE: Pane =
     Pane::new(PaneKind::RECORDED, "Recorded", show).tab("Raw").figure(&recorded::KIND).under_conditions().table();
@@ -46,12 +45,6 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         }
         FileState::Failed(why) => return sentence(ui, body, &format!("{why}."), true, context),
     };
-    if let RecordedContent::Picture(picture, shown) = &file.content
-        && context.view.recorded.corners.len() < CORNERS.len()
-    {
-        (context.view.recorded.set, context.view.recorded.ranked) = (None, None);
-        return corners(ui, body, picture.size(), shown, context);
-    }
     if let Err(why) = refresh(&file, context) {
         (context.view.recorded.set, context.view.recorded.ranked) = (None, None);
         return sentence(ui, body, &format!("{}: {why}.", file.name), true, context);
@@ -76,9 +69,7 @@ fn refresh(file: &Arc<RecordedFile>, context: &mut PaneContext<'_>) -> Result<()
         file: Arc::clone(file),
         chart,
         light: scene.light().map_err(|error| error.to_string())?.grid,
-        corners: view.corners.clone(),
-        // The level is that of a table's numbers; a picture's pixels are clipped at full scale.
-        clip: if matches!(file.content, RecordedContent::Picture(..)) { 0.0 } else { view.clip },
+        clip: view.clip,
     };
     let now = view.set.as_ref().filter(|(of, _)| *of == inputs);
     let set = match now {
@@ -100,27 +91,20 @@ fn refresh(file: &Arc<RecordedFile>, context: &mut PaneContext<'_>) -> Result<()
 fn patches(scene: &Scene<'_>, inputs: &RecordedInputs) -> Result<Vec<RecordedPatch>, String> {
     let chart =
         if inputs.chart.is_some() { scene.patch_radiances().map_err(|error| error.to_string())? } else { Vec::new() };
-    let corners = <[[f64; 2]; 4]>::try_from(inputs.corners.as_slice()).unwrap_or_default();
     let clip = if inputs.clip > 0.0 { inputs.clip } else { f64::INFINITY };
-    inputs.file.patches(&chart, &inputs.light, corners, Levels { black: 0.0, clip })
+    inputs.file.patches(&chart, &inputs.light, Levels { black: 0.0, clip })
 }
 
 fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let hint = "Open raw values: a table, or a linear 16-bit picture of a chart";
+    let hint = "Open a table of raw values, or a picture of a chart";
     context.button(ui, "Open…", hint, Command::OpenRecorded);
     let view = &mut context.view.recorded;
     let file = view.path.as_ref().map(|path| context.recorded.get(path));
-    let Some(FileState::Ready(file)) = file else { return };
+    let Some(FileState::Ready(_)) = file else { return };
     ui.checkbox(&mut view.freedom.gains, "Channel gains")
         .on_hover_text("Fit a gain for each channel; else one for all");
     ui.checkbox(&mut view.freedom.brightness, "Patch brightness")
         .on_hover_text("Fit a brightness for each patch: uneven illumination, shading; else all are 1");
-    if matches!(file.content, RecordedContent::Picture(..)) {
-        if !view.corners.is_empty() && ui.button("New corners").clicked() {
-            view.corners.clear();
-        }
-        return;
-    }
     let clip = DragValue::new(&mut view.clip).range(0.0..=1e12).prefix("Clip at ");
     ui.add(clip).on_hover_text("Raw value from which on a channel is clipped and excluded; 0 for none");
 }
@@ -131,36 +115,6 @@ fn sentence(ui: &mut Ui, body: Rect, words: &str, open: bool, context: &mut Pane
     child.add_space(UNIT);
     if open && child.button("Open raw values…").clicked() {
         context.push(Command::OpenRecorded);
-    }
-}
-
-fn corners(ui: &mut Ui, body: Rect, size: [usize; 2], shown: &Image, context: &mut PaneContext<'_>) {
-    let clicked = context.view.recorded.corners.clone();
-    let words =
-        format!("Click the {} corner of the grid of patches ({} of 4).", CORNERS[clicked.len()], clicked.len() + 1);
-    let head = Rect::from_min_size(body.min, Vec2::new(body.width(), ROW));
-    ui.put(head, Label::new(words));
-    let place = body.with_min_y(head.bottom() + UNIT);
-    let [width, height] = size.map(|side| side as f64);
-    let mut panel = Panel::new(
-        "picture",
-        chromascope_figure::Rect::from_min_size([0.0, 0.0], [place.width(), place.height()].map(f64::from)),
-        Axis::hidden([0.0, width]),
-        Axis::hidden([height, 0.0]),
-    );
-    panel.equal_aspect = true;
-    let image = Shape::Image { min: [0.0, height], max: [width, 0.0], image: shown.clone() };
-    panel.marks.push(Mark::new(Tag::default(), "picture of the chart", image));
-    let points = Shape::Points { points: clicked, marker: Marker::Circle, radius: 5.0 };
-    panel.marks.push(Mark::new(Tag::default(), "corners", points).with_stroke(InkRole::Warning, 2.0));
-    let options = PlotOptions { zoomable: true, reset: context.view.reset_plots, ..PlotOptions::default() };
-    let plot = paint::plot(ui, Id::unique("picture of a chart"), &panel, &context.theme, place, options);
-    widgets::labeled(&plot.response, egui::Role::Canvas, "Picture of the chart");
-    if plot.response.clicked()
-        && let Some(at) = plot.response.interact_pointer_pos()
-    {
-        let [x, y] = plot.view.value(at);
-        context.view.recorded.corners.push([x.clamp(0.0, width), y.clamp(0.0, height)]);
     }
 }
 

@@ -150,7 +150,6 @@ fn buttons(status: &Status) -> Vec<LineButton> {
 fn offered(offer: &Offer, is_alone: bool) -> String {
     match offer {
         Offer::Open(path) => format!("Open {}", file_name(path)),
-        Offer::Raw(_) => "Read a chart's raw values".to_owned(),
         Offer::Use(kind, _) if is_alone => {
             kind.used_as().map_or_else(|| "Compare camera".to_owned(), |used| format!("Use as {used}"))
         }
@@ -164,13 +163,12 @@ fn take(offer: &Offer, context: &mut PaneContext<'_>) {
     left.retain(|other| other != offer);
     context.view.say(match offer {
         Offer::Use(..) => format!("{}: done. Ctrl+Z undoes this.", offered(offer, false)),
-        Offer::Open(_) | Offer::Raw(_) => String::new(),
+        Offer::Open(_) => String::new(),
     });
     context.view.offer(left, true);
     context.push(match offer {
         Offer::Use(kind, name) => Command::Do(Action::Imported(ImportedAction::Use(*kind, name.clone()))),
         Offer::Open(path) => Command::OpenPath(path.clone()),
-        Offer::Raw(path) => Command::ReadRecorded(path.clone()),
     });
 }
 

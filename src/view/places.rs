@@ -9,7 +9,8 @@ impl View {
         if self.numerics {
             return [Some(PaneKind::METHODS), None, Some(PaneKind::TOLERANCE), Some(PaneKind::STATISTICS)];
         }
-        *self.saved.layout.places(self.saved.workspace)
+        let places = *self.saved.layout.places(self.saved.workspace);
+        if places[0] == Some(PaneKind::MEASURE) { [places[0], None, None, None] } else { places }
     }
 
     /// Shows a pane in its place.

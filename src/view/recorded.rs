@@ -1,4 +1,4 @@
-//! View state of the Recorded pane.
+//! View state of the Recorded pane, and of the page that measures a camera.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -16,9 +16,9 @@ pub struct RecordedView {
     /// True while the open file dialog is for recorded values.
     pub opening: bool,
     pub path: Option<PathBuf>,
+    /// Picture of a chart that is shown where a camera is measured.
+    pub photo: Option<PathBuf>,
     pub freedom: Freedom,
-    /// Corners of the chart in the picture that were clicked, in its pixels.
-    pub corners: Vec<[f64; 2]>,
     /// Raw value from which on a channel of a table is clipped; 0 for none.
     pub clip: f64,
     /// Camera whose residuals are shown; the best without one.
@@ -36,8 +36,6 @@ pub struct RecordedInputs {
     /// Its chart, if the file has no spectra of its own.
     pub chart: Option<Shared<PatchSet>>,
     pub light: Shared<GridSpectrum>,
-    /// Corners of the chart in the picture.
-    pub corners: Vec<[f64; 2]>,
     /// Raw value from which on a channel is clipped.
     pub clip: f64,
 }
@@ -46,6 +44,6 @@ impl PartialEq for RecordedInputs {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.file, &other.file)
             && (&self.chart, &self.light) == (&other.chart, &other.light)
-            && (&self.corners, self.clip) == (&other.corners, other.clip)
+            && self.clip == other.clip
     }
 }

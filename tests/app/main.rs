@@ -37,6 +37,7 @@ mod keeping;
 mod keyboard;
 mod library;
 mod lights;
+mod measure;
 mod meshes;
 mod metrics;
 mod opened;

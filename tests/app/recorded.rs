@@ -1,4 +1,4 @@
-//! The pane Recorded: a table of raw values opened, ranked and drawn; a picture whose corners are clicked.
+//! The pane Recorded: a table of raw values opened, ranked and drawn.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -74,7 +74,7 @@ fn fitted(window: &mut Window) {
 }
 
 /// Raw values of the chart that the window starts with, under its light, through the measured D70, with noise.
-fn recording() -> Vec<(String, [f64; 3])> {
+pub(crate) fn recording() -> Vec<(String, [f64; 3])> {
     let document = Document::colorimetry();
     let asset = |path: &str| Dataset::read(chromascope_data::text(path).unwrap()).unwrap();
     let camera = Sensor::from_dataset(&asset("cameras/nikon_d70_a_m_p_a_s.csv")).unwrap();
@@ -173,42 +173,6 @@ fn a_files_fault_is_told_and_another_can_be_opened() {
         found.ok_or_else(|| "not yet".to_owned())
     });
     assert!(window.query_by_label("Open raw values…").is_some());
-}
-
-#[test]
-fn corners_of_a_picture_are_clicked() {
-    let rows = recording();
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("recorded.png");
-    let pixel = |x: u32, y: u32| {
-        let inside = (60..540).contains(&x) && (40..360).contains(&y);
-        let index = if inside { (y - 40) / 80 * 6 + (x - 60) / 80 } else { 0 };
-        image::Rgb(if inside { rows[index as usize].1.map(|v| v as u16) } else { [2000; 3] })
-    };
-    image::ImageBuffer::<image::Rgb<u16>, Vec<u16>>::from_fn(600, 400, pixel).save(&path).unwrap();
-    let mut window = window(&path, [1280.0, 800.0], egui::Theme::Light);
-    // As chosen for a table before: no level of pixels.
-    window.state_mut().view.recorded.clip = 100.0;
-    open(&mut window);
-    assert!(window.query_by_label_contains("top left").is_some());
-    let plot = window.get_by_label("Picture of the chart").rect();
-    // Square pixels, the picture in the middle.
-    let scale = (plot.width() / 600.0).min(plot.height() / 400.0);
-    let at = |x: f32, y: f32| plot.center() + egui::vec2((x - 300.0) * scale, (y - 200.0) * scale);
-    for (x, y) in [(60.0, 40.0), (540.0, 40.0), (540.0, 360.0), (60.0, 360.0)] {
-        window.hover_at(at(x, y));
-        window.run_steps(1);
-        for pressed in [true, false] {
-            let (pos, button, modifiers) = (at(x, y), egui::PointerButton::Primary, egui::Modifiers::NONE);
-            window.event(egui::Event::PointerButton { pos, button, pressed, modifiers });
-        }
-        window.run_steps(3);
-    }
-    let corners = &window.state().view.recorded.corners;
-    for (corner, wanted) in corners.iter().zip([[60.0, 40.0], [540.0, 40.0], [540.0, 360.0], [60.0, 360.0]]) {
-        assert!((corner[0] - wanted[0]).hypot(corner[1] - wanted[1]) < 6.0, "{corners:?}");
-    }
-    fitted(&mut window);
-    assert!(window.query_by_label_contains("recorded.png: Nikon D70 (A.M.P.A.S.)").is_some());
 }
 
 proptest! {

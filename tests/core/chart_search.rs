@@ -18,7 +18,7 @@ fn raw(camera: &str, light: &str) -> Vec<DVec3> {
 }
 
 fn expected() -> Vec<[f64; 3]> {
-    raw("Canon EOS 5D Mark II", "D65").iter().map(|color| color.to_array()).collect()
+    raw("Canon EOS 5D Mark II", "D65").iter().map(glam::DVec3::to_array).collect()
 }
 
 /// A rendered photograph: a mosaic of pixels, four of them for each of the preview's.
@@ -159,6 +159,6 @@ fn what_is_no_chart_is_not_found() {
     photo.picture_from_chart = DMat3::from_translation(DVec2::splat(1e5));
     assert_eq!(found(&photo), None);
     for size in [[0, 0], [5, 5], [usize::MAX, 2], [40, 40]] {
-        assert_eq!(find_chart(size, &[[f32::NAN; 3]; 1600], &expected()), None);
+        assert_eq!(find_chart(size, &vec![[f32::NAN; 3]; 1600], &expected()), None);
     }
 }

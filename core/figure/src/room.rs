@@ -30,6 +30,7 @@ choices! {
 
 /// Size that a saved figure is laid out for, in points, and what it leaves out.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(clippy::struct_excessive_bools, reason = "independent switches of a page")]
 pub struct FigureRoom {
     /// Width; `None` takes the figure's own.
     pub width: Option<f64>,

@@ -10,6 +10,7 @@ use chromascope_core::query::Shared;
 
 use crate::document::correction::CorrectionChoice;
 use crate::document::imported::ImportedSet;
+use crate::document::measurement::Measurement;
 use crate::document::names::{BuiltInNames, PLACES};
 use crate::document::render::{BALANCE, MeshChoice, RenderSettings, SUN};
 use crate::document::start::Start;
@@ -24,6 +25,8 @@ pub enum Action {
     Scene(SceneAction),
     Render(RenderAction),
     Imported(ImportedAction),
+    /// Another state of the measurement of a camera, in a step of this name.
+    Measure(&'static str, Box<Measurement>),
     /// A choice of light or white balance made where pictures of their own light are visible: they take it too.
     ForPictures(Box<Action>),
     /// Begins again from a named start; imported sets stay.
@@ -101,6 +104,7 @@ impl Action {
             }
             Self::Render(action) => action.name().to_owned(),
             Self::Imported(action) => action.name(),
+            Self::Measure(what, _) => (*what).to_owned(),
             Self::ForPictures(action) => action.name(),
             Self::Start(start) => format!("Start: {}", start.label()),
             Self::Reset => "Reset to the first screen".to_owned(),
@@ -111,9 +115,8 @@ impl Action {
     pub fn is_same_gesture(&self, next: &Self) -> bool {
         use SceneAction::{SetCorrection, SetPixel, SetTemperature, SetWhite};
         match (self, next) {
-            (Self::Render(RenderAction::Set { what, .. }), Self::Render(RenderAction::Set { what: next, .. })) => {
-                what == next
-            }
+            (Self::Render(RenderAction::Set { what, .. }), Self::Render(RenderAction::Set { what: next, .. }))
+            | (Self::Measure(what, _), Self::Measure(next, _)) => what == next,
             (Self::ForPictures(action), Self::ForPictures(next)) => action.is_same_gesture(next),
             (
                 Self::Scene(action @ (SetTemperature(_) | SetPixel(_) | SetWhite(_) | SetCorrection(_))),
@@ -130,6 +133,7 @@ impl Action {
             Self::Scene(action) => action.apply(document),
             Self::Render(action) => action.apply(document),
             Self::Imported(action) => action.apply(document),
+            Self::Measure(_, to) => document.measurement.clone_from(to),
             Self::ForPictures(action) => {
                 document.render.sunlight = false;
                 action.apply(document);
@@ -140,11 +144,11 @@ impl Action {
     }
 }
 
-/// Begins again from a named start, with the imported sets available.
+/// Begins again from a named start, with the imported sets and the measured camera available.
 fn begin(document: &mut Document, start: Start) {
-    let own = std::mem::take(&mut document.own);
+    let (own, measurement) = (std::mem::take(&mut document.own), std::mem::take(&mut document.measurement));
     let (session, unknown) = (document.session.take(), std::mem::take(&mut document.unknown));
-    *document = Document { own, session, unknown, ..start.document() };
+    *document = Document { own, measurement, session, unknown, ..start.document() };
 }
 
 fn named<'a>(document: &'a mut Document, kind: SetKind, name: &'a str) -> impl Iterator<Item = &'a mut Compared> {

@@ -6,6 +6,7 @@
 pub mod correction;
 pub mod imported;
 mod kind;
+pub mod measurement;
 pub mod names;
 pub mod paths;
 pub mod render;
@@ -20,7 +21,8 @@ use correction::CorrectionChoice;
 pub use correction::TRAINING;
 use imported::ImportedSet;
 pub use imported::SessionFile;
-pub use kind::{SensorId, SetKind};
+pub use kind::{Light, SensorId, SetKind};
+use measurement::Measurement;
 use render::RenderSettings;
 use serde::{Deserialize, Serialize};
 use start::Start;
@@ -63,6 +65,9 @@ pub struct Document {
     pub render: RenderSettings,
     #[serde(with = "imported::list")]
     pub own: Vec<Shared<ImportedSet>>,
+    /// Pictures of charts by the user's camera.
+    #[serde(skip_serializing_if = "Measurement::is_none")]
+    pub measurement: Measurement,
     /// File that it is saved in as a session, where it is.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub session: Option<SessionFile>,
@@ -86,14 +91,6 @@ pub struct Compared {
 
 fn yes() -> bool {
     true
-}
-
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Light {
-    Set(String),
-    BlackBody,
-    Daylight,
 }
 
 choices! {
@@ -300,6 +297,8 @@ pub const PAPER_REFERENCE: &str = "Stiles & Burch 1955 2°";
 pub const FIT_TARGET: &str = CIE_1931;
 pub const CIE_1931: &str = "CIE 1931 2°";
 pub const CHART: &str = "ColorChecker 24 (Ohta 1997)";
+/// Chart of photographs unless the user says otherwise: the average of many.
+pub const PHOTOGRAPHED_CHART: &str = "ColorChecker 24 (BabelColor average)";
 /// Name of the paper's five patches of the default chart, on the command line and in files.
 pub const FIVE: &str = "ColorChecker five";
 /// The light on the scene unless the user says otherwise.
@@ -339,6 +338,7 @@ impl Document {
             overlays: Overlays::default(),
             render: RenderSettings::default(),
             own: Vec::new(),
+            measurement: Measurement::default(),
             session: None,
             unknown: serde_json::Map::new(),
         }

@@ -1,6 +1,7 @@
 //! Figures out of the program: SVG and PDF from the figure, PNG from that SVG, all in the bundled fonts.
 
 pub mod card;
+pub mod measured;
 pub mod page;
 pub mod paper;
 pub mod profile;

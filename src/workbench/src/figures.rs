@@ -14,6 +14,7 @@ pub mod head_to_head;
 pub mod kind;
 pub mod light;
 pub mod look;
+pub mod measured;
 pub mod metrics;
 pub mod portrait;
 pub mod recorded;

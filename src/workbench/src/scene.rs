@@ -6,6 +6,7 @@ pub mod conditions;
 pub mod correction;
 pub mod light;
 pub mod locus;
+pub mod measurement;
 pub mod metrics;
 pub mod orbit;
 pub mod recorded;

@@ -177,6 +177,18 @@ impl ChartGrid {
         Ok(pixels.into_iter().map(|(count, channels)| PatchMean::new(channels, count, clip)).collect())
     }
 
+    /// Corners of the part of a patch that counts, in pixels, around it from the top left.
+    pub fn outline(&self, patch: usize) -> [[f64; 2]; 4] {
+        let cells = DVec2::new(self.columns as f64, self.rows as f64);
+        let middle = DVec2::new((patch % self.columns) as f64 + 0.5, (patch / self.columns) as f64 + 0.5);
+        let picture_from_square = homography(self.corners);
+        let at = |[x, y]: [f64; 2]| {
+            let place = picture_from_square * ((middle + CENTRAL / 2.0 * DVec2::new(x, y)) / cells).extend(1.0);
+            (place.truncate() / place.z).to_array()
+        };
+        [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(at)
+    }
+
     /// Patch in whose central part a place of the picture lies.
     fn patch_at(&self, x: f64, y: f64) -> Option<usize> {
         let square = self.square_from_picture * DVec3::new(x, y, 1.0);

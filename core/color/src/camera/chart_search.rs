@@ -9,6 +9,7 @@
 //! of all patches then place the grid to a fraction of a pixel (`edges`).
 
 mod edges;
+mod found;
 mod lattice;
 mod quads;
 
@@ -16,14 +17,10 @@ use std::collections::BTreeMap;
 
 use glam::{DMat3, DVec2, DVec3};
 
-use super::chart_grid::homography;
 pub use edges::refine_chart;
+pub use found::{CHART_SIZE, FoundChart};
+use found::{COLUMNS, PATCHES, ROWS, corners, pixel_at, project};
 
-/// Columns and rows of the chart.
-pub const CHART_SIZE: [usize; 2] = [COLUMNS as usize, ROWS as usize];
-const COLUMNS: i32 = 6;
-const ROWS: i32 = 4;
-const PATCHES: usize = CHART_SIZE[0] * CHART_SIZE[1];
 /// Largest RMS of the logarithms' residuals.
 const WORST_COLOR: f64 = 0.4;
 /// Largest share of the second best position's residual that the best may have.
@@ -32,31 +29,6 @@ const DISTINCT: f64 = 0.75;
 const FLOOR: f64 = 0.02;
 /// Largest residual that counts in full.
 const OUTLIER: f64 = 0.7;
-
-/// A chart of 6 × 4 patches found in a picture.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FoundChart {
-    /// Outer corners of the grid's 6 × 4 equal cells, half a gap outside the outer patches: top left (dark skin), top right, bottom right,
-    /// bottom left; in pixels, with (0, 0) at the picture's top left, as [`super::chart_grid::ChartGrid::new`] takes them.
-    pub corners: [[f64; 2]; 4],
-    /// Width and height of a patch as shares of its cell's.
-    pub fill: [f64; 2],
-    /// RMS of ln(measured / expected) after one gain a channel and a linear slope of the light.
-    pub color_residual: f64,
-    /// Share of the patches' 96 edges that were found where the grid has them.
-    pub edges: f64,
-}
-
-impl FoundChart {
-    /// Outer corners of the outer patches, in the order of the grid's.
-    pub fn patch_corners(&self) -> [[f64; 2]; 4] {
-        let cells = DVec2::new(CHART_SIZE[0] as f64, CHART_SIZE[1] as f64);
-        let inset = (DVec2::ONE - DVec2::from_array(self.fill)) / 2.0 / cells;
-        let picture_from_square = homography(self.corners.map(DVec2::from_array));
-        let at = |corner: DVec2| project(picture_from_square, inset + corner * (DVec2::ONE - 2.0 * inset)).to_array();
-        [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y].map(at)
-    }
-}
 
 /// Searches a linear picture (rows of pixels, at most some 1000 along a side) for a chart of 24 patches. `expected` has the RGB of the
 /// patches row by row from the first, of any camera under any daylight, with any gain a channel. None where no chart is found for certain.
@@ -72,24 +44,6 @@ pub fn find_chart(size: [usize; 2], rgb: &[[f32; 3]], expected: &[[f64; 3]]) -> 
     let (color_residual, picture_from_cells) = windows.min_by(|a, b| a.0.total_cmp(&b.0))?;
     let rough = FoundChart { corners: corners(picture_from_cells), fill: [0.85; 2], color_residual, edges: 0.0 };
     refine_chart(&rough, size, pixel)
-}
-
-/// Corners of the chart's cells [0, 6] × [0, 4] in the picture.
-fn corners(picture_from_cells: DMat3) -> [[f64; 2]; 4] {
-    let [columns, rows] = CHART_SIZE.map(|n| n as f64);
-    [[0.0, 0.0], [columns, 0.0], [columns, rows], [0.0, rows]]
-        .map(|corner| project(picture_from_cells, DVec2::from_array(corner)).to_array())
-}
-
-fn project(homography: DMat3, point: DVec2) -> DVec2 {
-    let point = homography * DVec3::new(point.x, point.y, 1.0);
-    point.truncate() / point.z
-}
-
-/// Pixel in which a place of the picture lies.
-fn pixel_at(place: DVec2, [width, height]: [usize; 2]) -> Option<[usize; 2]> {
-    let inside = place.x >= 0.0 && place.y >= 0.0 && place.x < width as f64 && place.y < height as f64;
-    inside.then_some([place.x as usize, place.y as usize])
 }
 
 /// Part of a lattice of the chart's size, one way round.

@@ -213,7 +213,7 @@ impl ChartRecovery {
     }
 }
 
-/// Solution with noise and prior as wide as the recording says they are: squares by the number of parameters that are determined (MacKay
+/// Solution with noise and prior as wide as the recording says they are: squares by the number of parameters that are determined (`MacKay`
 /// 1992, Neural Computation 4, 415); noise at least [`LEAST_NOISE`] of what was stated, the prior at least that of the library. Ratios are
 /// relative to what was stated.
 fn adapted(problem: &mut Problem, prior: &mut Prior, mut solution: Solution) -> Option<Solution> {

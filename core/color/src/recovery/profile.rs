@@ -76,7 +76,9 @@ pub(super) fn samples<'a>(
     let logs = all.iter().filter_map(|s| Some((s.recorded? / s.predicted).to_array().map(f64::ln)));
     let logs: Vec<f64> = logs.flatten().filter(|log| log.is_finite()).collect();
     let scale = (-logs.iter().sum::<f64>() / logs.len().max(1) as f64).exp();
-    all.iter_mut().for_each(|s| s.recorded = s.recorded.map(|rgb| rgb * scale));
+    for sample in &mut all {
+        sample.recorded = sample.recorded.map(|rgb| rgb * scale);
+    }
     (white / white.y, all)
 }
 

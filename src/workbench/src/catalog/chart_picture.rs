@@ -1,25 +1,41 @@
-//! Linear pictures of charts: 16-bit TIFF and PNG.
+//! Linear pictures of charts: DNG, and 16-bit TIFF and PNG.
 
 use std::io::Cursor;
 
-use chromascope_core::camera::chart_grid::{ChartGrid, ChartGridError};
+use chromascope_core::camera::chart_grid::{ChartGrid, ChartGridError, PatchMean};
+use chromascope_core::camera::chart_search::{CHART_SIZE, FoundChart, find_chart, refine_chart};
 use chromascope_core::colorimetry::rgb::srgb_transfer;
+use chromascope_core::patch_set::Patch;
+use chromascope_core::query::Ask as _;
 use chromascope_figure::Image;
 use image::codecs::png::PngDecoder;
 use image::{DynamicImage, ImageDecoder as _, ImageFormat, ImageReader, Limits};
+use raw_image::{RawImage, RawImageError};
 
-use super::recorded::{Levels, RawRow};
+use super::Catalog;
+use super::load::{LightQuery, PatchesQuery, SensorQuery};
+use super::recorded::{Levels, RawRow, lit};
+use crate::document::measurement::MeasuredPatch;
+use crate::document::{CHART, SetKind};
+use crate::results::Results;
 
 const MAX_BYTES: u64 = 1 << 30;
 /// Maximum number of bytes of what stands beside its pixels, such as a color profile.
 const MAX_METADATA: u64 = 64 << 20;
+/// Longest side of the copy in which the chart is searched.
+const SEARCHED: usize = 1000;
+/// Camera and light by which patches are told from each other: any will do.
+const CAMERA: &str = "Nikon D700";
+const LIGHT: &str = "D65";
 /// Value from which on sixteen bits are clipped.
 const CLIP: f64 = 65535.0;
 
 #[derive(Debug, thiserror::Error)]
 pub enum ChartPictureError {
-    #[error("{0}; expected a 16-bit TIFF or PNG")]
+    #[error("{0}; expected a DNG, or a 16-bit TIFF or PNG")]
     Format(#[from] image::ImageError),
+    #[error(transparent)]
+    Raw(#[from] RawImageError),
     #[error("TIFF tag {0} is text where a number is expected; save the picture again")]
     Tag(u16),
     #[error("the picture is {0}; save it as linear 16-bit RGB, without a tone curve")]
@@ -29,13 +45,23 @@ pub enum ChartPictureError {
 }
 
 #[derive(Debug)]
-pub struct ChartPicture {
-    picture: DynamicImage,
+pub struct ChartPicture(Pixels);
+
+#[derive(Debug)]
+enum Pixels {
+    Picture(DynamicImage),
+    /// Scaled so that white is at 1.
+    Raw(Box<RawImage>),
 }
 
 impl ChartPicture {
-    /// Decodes a TIFF or PNG of 16 bits or 32-bit floats a channel.
+    /// Decodes a DNG, or a TIFF or PNG of 16 bits or 32-bit floats a channel.
     pub fn decode(bytes: &[u8]) -> Result<Self, ChartPictureError> {
+        match RawImage::read(bytes) {
+            Ok(raw) => return Ok(Self(Pixels::Raw(Box::new(raw)))),
+            Err(RawImageError::NotDng) => {}
+            Err(error) => return Err(error.into()),
+        }
         let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(image::ImageError::from)?;
         let limits = |bytes: u64| {
             let mut limits = Limits::default();
@@ -56,7 +82,7 @@ impl ChartPicture {
         };
         match picture {
             DynamicImage::ImageRgb16(_) | DynamicImage::ImageRgba16(_) | DynamicImage::ImageRgb32F(_) => {
-                Ok(Self { picture })
+                Ok(Self(Pixels::Picture(picture)))
             }
             DynamicImage::ImageRgb8(_) | DynamicImage::ImageRgba8(_) => Err(ChartPictureError::Depth("8-bit")),
             _ => Err(ChartPictureError::Depth("not RGB")),
@@ -64,12 +90,31 @@ impl ChartPicture {
     }
 
     pub fn size(&self) -> [usize; 2] {
-        [self.picture.width() as usize, self.picture.height() as usize]
+        match &self.0 {
+            Pixels::Picture(picture) => [picture.width() as usize, picture.height() as usize],
+            Pixels::Raw(raw) => raw.size(),
+        }
     }
 
+    /// Maker and model of the camera, where the file states them.
+    pub fn camera(&self) -> Option<String> {
+        let Pixels::Raw(raw) = &self.0 else { return None };
+        let about = raw.metadata();
+        let (make, model) = (about.make.clone().unwrap_or_default(), about.model.clone()?);
+        // Many a model begins with the maker's name, in its own case.
+        let maker = make.split(' ').next().unwrap_or_default();
+        let has_maker = model.to_lowercase().starts_with(&maker.to_lowercase());
+        Some(if has_maker { model } else { format!("{maker} {model}") })
+    }
+
+    /// Linear RGB of a pixel; NaN in the channels that a mosaic does not have there.
     pub fn pixel(&self, x: usize, y: usize) -> [f64; 3] {
+        let picture = match &self.0 {
+            Pixels::Picture(picture) => picture,
+            Pixels::Raw(raw) => return raw.pixel(x, y),
+        };
         let (x, y) = (x as u32, y as u32);
-        match &self.picture {
+        match picture {
             DynamicImage::ImageRgb16(picture) => picture.get_pixel(x, y).0.map(f64::from),
             DynamicImage::ImageRgba16(picture) => {
                 let [r, g, b, _] = picture.get_pixel(x, y).0;
@@ -80,33 +125,88 @@ impl ChartPicture {
         }
     }
 
-    /// The picture as it is shown, at most `longest` pixels along a side, the brightest pixel at white.
-    pub fn preview(&self, longest: usize) -> Image {
+    /// Linear RGB of a small copy, at most `longest` pixels along a side, with the number of pixels that one of its stands for.
+    fn small(&self, longest: usize) -> ([usize; 2], usize, Vec<[f32; 3]>) {
+        if let Pixels::Raw(raw) = &self.0 {
+            let preview = raw.preview(longest);
+            return (preview.size, preview.step, preview.rgb);
+        }
         let [width, height] = self.size();
         let step = width.max(height).div_ceil(longest).max(1);
         let (across, down) = (width.div_ceil(step), height.div_ceil(step));
-        let at = |index: usize| self.pixel(index % across * step, index / across * step);
-        let brightest = (0..across * down).flat_map(at).fold(f64::MIN_POSITIVE, f64::max);
-        let encode = |value: f64| (255.0 * srgb_transfer((value / brightest).clamp(0.0, 1.0))).round() as u8;
-        let pixel = |index: usize| {
-            let [r, g, b] = at(index).map(encode);
-            [r, g, b, 255]
-        };
-        let rgba: Vec<u8> = (0..across * down).flat_map(pixel).collect();
-        Image { width: across, height: down, rgba: rgba.into() }
+        let at = |index: usize| self.pixel(index % across * step, index / across * step).map(|value| value as f32);
+        ([across, down], step, (0..across * down).map(at).collect())
     }
 
-    /// Means of the patches; NaN marks a missing patch, infinity a channel with a clipped pixel.
+    /// The picture as it is shown, at most `longest` pixels along a side, the brightest pixel at white.
+    pub fn preview(&self, longest: usize) -> Image {
+        let ([width, height], _, rgb) = self.small(longest);
+        // Without balance a raw picture is green.
+        let brightest = [0, 1, 2].map(|c: usize| rgb.iter().fold(f32::MIN_POSITIVE, |most, rgb| most.max(rgb[c])));
+        let encode = |value: f32, most: f32| {
+            (255.0 * srgb_transfer((f64::from(value) / f64::from(most)).clamp(0.0, 1.0))).round() as u8
+        };
+        let pixel = |rgb: &[f32; 3]| {
+            let [r, g, b] = [0, 1, 2].map(|c: usize| encode(rgb[c], brightest[c]));
+            [r, g, b, 255]
+        };
+        let rgba: Vec<u8> = rgb.iter().flat_map(pixel).collect();
+        Image { width, height, rgba: rgba.into() }
+    }
+
+    /// Corners of the grid of 6 × 4 patches in pixels, if a chart is found for certain.
+    pub fn find_chart(&self) -> Option<[[f64; 2]; 4]> {
+        let (size, step, rgb) = self.small(SEARCHED);
+        let found = find_chart(size, &rgb, &expected()?)?;
+        let corners = found.corners.map(|corner| corner.map(|side| side * step as f64));
+        let rough = FoundChart { corners, ..found };
+        Some(refine_chart(&rough, self.size(), |x, y| self.pixel(x, y)).map_or(corners, |fine| fine.corners))
+    }
+
+    fn clip(&self, clip: f64) -> f64 {
+        match &self.0 {
+            Pixels::Picture(_) => clip.min(CLIP),
+            Pixels::Raw(raw) => clip.min(raw.clip()),
+        }
+    }
+
+    /// Patches within the corners of a grid of 6 × 4.
+    pub fn patches(&self, corners: [[f64; 2]; 4]) -> Result<Vec<MeasuredPatch>, ChartPictureError> {
+        let means = self.means(&ChartGrid::new(corners, CHART_SIZE[0], CHART_SIZE[1])?, f64::INFINITY)?;
+        let patch = |patch: &PatchMean| MeasuredPatch {
+            rgb: [0, 1, 2].map(|c: usize| Some(patch.mean[c]).filter(|mean| !patch.clipped[c] && mean.is_finite())),
+            deviation: patch.noise.map(|noise| if noise.is_finite() { noise } else { 0.0 }),
+            clipped: patch.clipped_share.into_iter().fold(0.0, f64::max),
+        };
+        Ok(means.iter().map(patch).collect())
+    }
+
+    fn means(&self, grid: &ChartGrid, clip: f64) -> Result<Vec<PatchMean>, ChartPictureError> {
+        Ok(grid.means(self.size(), self.clip(clip), |x, y| self.pixel(x, y))?)
+    }
+
+    /// Means of the patches; NaN marks a missing patch, infinity a channel with too many clipped pixels.
     pub fn rows(&self, grid: &ChartGrid, levels: Levels) -> Result<Vec<RawRow>, ChartPictureError> {
-        let clip = levels.clip.min(CLIP);
-        let means = grid.means(self.size(), clip, |x, y| self.pixel(x, y))?;
-        let row = |(index, patch): (usize, &chromascope_core::camera::chart_grid::PatchMean)| RawRow {
+        let means = self.means(grid, levels.clip)?;
+        let row = |(index, patch): (usize, &PatchMean)| RawRow {
             line: index + 1,
             name: None,
             rgb: [0, 1, 2].map(|c: usize| if patch.clipped[c] { f64::INFINITY } else { patch.mean[c] }),
         };
         Ok(means.iter().enumerate().map(row).collect())
     }
+}
+
+/// RGB of the chart's patches by a camera of the library under daylight.
+fn expected() -> Option<Vec<[f64; 3]>> {
+    let (catalog, results) = (Catalog::built_in(), Results::default());
+    let place = |kind, name| catalog.get(kind, name).map(|entry| entry.place.clone());
+    let sensor = (*results.ask(&SensorQuery(place(SetKind::Camera, CAMERA)?))).clone().ok()?;
+    let light = (*results.ask(&LightQuery::Set(place(SetKind::Illuminant, LIGHT)?))).clone().ok()?;
+    let patches = PatchesQuery { place: place(SetKind::Chart, CHART)?, names: None };
+    let patches = (*results.ask(&patches)).clone().ok()?;
+    let rgb = |patch: &Patch| sensor.integrate(lit(&patch.grid, &light.grid).values());
+    Some(patches.patches().iter().map(rgb).collect())
 }
 
 /// The first tag of the first picture in a TIFF (of 32 or 64 bits) that is text (type 2) though its number is below those of private tags and of

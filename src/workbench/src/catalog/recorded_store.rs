@@ -4,7 +4,6 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
-use chromascope_core::camera::chart_grid::ChartGrid;
 use chromascope_core::camera::recorded::RecordedPatch;
 use chromascope_core::spectral::{GridSpectrum, Quantity, SpectralDistribution};
 use chromascope_figure::Image;
@@ -15,7 +14,16 @@ use super::file_store::{FileStore, FromFile};
 use super::recorded::{self, Levels, RawRow};
 use crate::format::{file_name, io_reason};
 
-pub const PICTURES: [&str; 3] = ["tif", "tiff", "png"];
+/// Endings of pictures; of those that cannot be read the reason and the remedy are told.
+pub const PICTURES: [&str; 18] = [
+    "dng", "tif", "tiff", "png", "jpg", "jpeg", "heic", "nef", "nrw", "cr2", "cr3", "crw", "arw", "raf", "orf", "rw2",
+    "pef", "iiq",
+];
+/// True for the ending of a picture.
+pub fn is_picture(path: &Path) -> bool {
+    path.extension().is_some_and(|own| PICTURES.iter().any(|ending| own.eq_ignore_ascii_case(ending)))
+}
+
 const MAX_BYTES: u64 = 1 << 30;
 /// Longest side of a picture as it is shown.
 const SHOWN: usize = 1024;
@@ -31,8 +39,17 @@ pub struct TableSpectra {
 #[derive(Debug)]
 pub enum RecordedContent {
     Table(Vec<RawRow>, Option<TableSpectra>),
-    /// A picture of a chart, and as it is shown.
-    Picture(ChartPicture, Image),
+    Picture(ChartPhoto),
+}
+
+/// A picture of a chart.
+#[derive(Debug)]
+pub struct ChartPhoto {
+    pub picture: ChartPicture,
+    /// The picture as it is shown.
+    pub shown: Image,
+    /// Corners of the grid of patches, if a chart was found for certain.
+    pub found: Option<[[f64; 2]; 4]>,
 }
 
 #[derive(Debug)]
@@ -55,7 +72,7 @@ impl FromFile for RecordedFile {
     fn bytes(&self) -> usize {
         match &self.content {
             RecordedContent::Table(rows, _) => size_of_val(rows.as_slice()),
-            RecordedContent::Picture(picture, _) => picture.size().iter().product::<usize>() * size_of::<[f32; 3]>(),
+            RecordedContent::Picture(photo) => photo.picture.size().iter().product::<usize>() * size_of::<[f32; 3]>(),
         }
     }
 
@@ -74,11 +91,10 @@ fn read(path: &Path) -> Result<RecordedFile, String> {
     if bytes.len() as u64 > MAX_BYTES {
         return Err(failed(format!("larger than {} MB; cut or bin the picture", MAX_BYTES >> 20)));
     }
-    let is_picture = path.extension().is_some_and(|own| PICTURES.iter().any(|ending| own.eq_ignore_ascii_case(ending)));
-    let content = if is_picture {
+    let content = if is_picture(path) {
         let picture = ChartPicture::decode(&bytes).map_err(|error| failed(error.to_string()))?;
-        let shown = picture.preview(SHOWN);
-        RecordedContent::Picture(picture, shown)
+        let (shown, found) = (picture.preview(SHOWN), picture.find_chart());
+        RecordedContent::Picture(ChartPhoto { picture, shown, found })
     } else {
         let table = recorded::read_table(&bytes).map_err(|error| failed(error.to_string()))?;
         let spectra = table.spectra.as_deref().map(spectra).transpose().map_err(failed)?;
@@ -111,13 +127,11 @@ impl RecordedFile {
         !matches!(&self.content, RecordedContent::Table(_, Some(_)))
     }
 
-    /// Patches with spectra and raw values. `chart` is the current chart's radiances, `light` the current light, `corners` the chart's
-    /// corners in a picture.
+    /// Patches with spectra and raw values. `chart` is the current chart's radiances, `light` the current light.
     pub fn patches(
         &self,
         chart: &[(String, GridSpectrum)],
         light: &GridSpectrum,
-        corners: [[f64; 2]; 4],
         levels: Levels,
     ) -> Result<Vec<RecordedPatch>, String> {
         let join = |spectra: &[(String, GridSpectrum)], rows: &[RawRow]| {
@@ -136,11 +150,7 @@ impl RecordedFile {
                 };
                 join(&spectra.curves.iter().map(radiance).collect::<Vec<_>>(), rows)
             }
-            RecordedContent::Picture(picture, _) => {
-                let grid = ChartGrid::new(corners, 6, 4).map_err(|error| error.to_string())?;
-                let rows = picture.rows(&grid, levels).map_err(|error| error.to_string())?;
-                join(chart, &rows)
-            }
+            RecordedContent::Picture(_) => Err("a picture of a chart: open it in Data, Measure a camera".to_owned()),
         }
     }
 }

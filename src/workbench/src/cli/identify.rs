@@ -20,6 +20,8 @@ use super::outputs::{self, put};
 use super::request::{Request, in_file};
 use crate::catalog::chart_picture::ChartPicture;
 use crate::catalog::recorded::{self, Levels, RawRow, RawTable, lit};
+use crate::catalog::recorded_store::is_picture;
+use crate::document::PHOTOGRAPHED_CHART;
 use crate::document::imported::Role;
 use crate::document::start::Start;
 use crate::format::{display_path, fixed, rank_in_words};
@@ -32,9 +34,10 @@ const EXAMPLES: &str = "Examples:
   chromascope identify raw.csv --chart \"ColorChecker 24 (Ohta 1997)\" --illuminant D50
   chromascope identify measured.csv --illuminant lamp.csv --residuals residuals.csv
   chromascope identify radiances.csv --radiance --raw raw.csv --clip 4095 --format json
+  chromascope identify chart.dng --illuminant D65
   chromascope identify --image chart.tif --corners 212,180 1840,195 1826,1290 220,1275 --chart colorchecker.csv --illuminant D50
 
-FILE is a spectral table, one row a patch, with three more columns R, G, B of linear raw values; or the spectra alone with --raw; or,
+FILE is a picture of a chart of 24 patches, which is searched in it; or a spectral table, one row a patch, with three more columns R, G, B of linear raw values; or the spectra alone with --raw; or,
 with --chart, a table of R, G, B alone. Rows belong to spectra by the patches' names, or in order. Model: recorded = gain of the
 channel × brightness of the patch × the integral of sensitivity, reflectance and light; fitted by least squares of the logarithm.
 RMS is that of the remaining log error in percent; missing, zero, negative and clipped values are excluded and listed.
@@ -49,20 +52,21 @@ first order). Columns of --residuals: camera, patch, channel, residual_percent (
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct IdentifyArguments {
-    /// Spectra with raw RGB, spectra alone (with --raw or --image), or raw RGB alone (with --chart)
+    /// A picture of a chart (DNG, linear 16-bit TIFF or PNG), spectra with raw RGB, spectra alone (with --raw or --image), or raw RGB alone (with --chart)
     #[arg(value_name = "FILE", required_unless_present = "image")]
     file: Option<PathBuf>,
     /// A table of raw RGB: columns patch, R, G, B
     #[arg(long, value_name = "FILE", conflicts_with = "image")]
     raw: Option<PathBuf>,
-    /// A linear 16-bit TIFF or PNG of the chart
-    #[arg(long, value_name = "FILE", requires = "corners")]
+    /// A picture of the chart: DNG, linear 16-bit TIFF or PNG
+    #[arg(long, value_name = "FILE")]
     image: Option<PathBuf>,
     /// Corners of the grid of patches in pixels, around the chart from the first patch: top left, top right, bottom right, bottom left
-    #[arg(long, value_name = "x,y", num_args = 4, value_parser = corner, requires = "image")]
+    /// [default: a chart of 24 patches is searched]
+    #[arg(long, value_name = "x,y", num_args = 4, value_parser = corner)]
     corners: Vec<[f64; 2]>,
     /// Patches across and down the chart in the picture
-    #[arg(long, value_name = "CxR", default_value = "6x4", value_parser = grid, requires = "image")]
+    #[arg(long, value_name = "CxR", default_value = "6x4", value_parser = grid)]
     grid: [usize; 2],
     /// The patches' reflectances: a chart, or a file
     #[arg(long, value_name = "NAME|FILE")]
@@ -123,7 +127,7 @@ const FORMS: [&str; 3] = [
     "JSON with gains, brightnesses and residuals",
 ];
 
-fn corner(text: &str) -> Result<[f64; 2], String> {
+pub(super) fn corner(text: &str) -> Result<[f64; 2], String> {
     let wrong = || format!("\"{text}\" is not a corner; write x,y in pixels, such as 212,180.5");
     let (x, y) = text.split_once(',').ok_or_else(wrong)?;
     let number = |text: &str| text.trim().parse::<f64>().ok().filter(|value| value.is_finite()).ok_or_else(wrong);
@@ -195,6 +199,11 @@ fn recorded_set(request: &mut Request, arguments: &IdentifyArguments, levels: Le
                 format!("spectra come from --chart and raw values from elsewhere; leave out {}", display_path(file));
             return refused("FILE", reason);
         }
+        (chart, Some(file)) if is_picture(file) && !own => {
+            request.set_chart(Some(chart.as_deref().unwrap_or(PHOTOGRAPHED_CHART.as_ref())))?;
+            let rows = picture_rows(request, arguments, file, levels)?;
+            (chart_spectra(request)?, Some(rows))
+        }
         (Some(chart), file) => {
             request.set_chart(Some(chart))?;
             let rows = file.as_deref().map(|file| raw_rows(request, file)).transpose()?;
@@ -257,13 +266,24 @@ fn picture_rows(
     path: &Path,
     levels: Levels,
 ) -> Result<Vec<RawRow>> {
-    let bytes = request.bytes(path)?;
-    let corners = <[[f64; 2]; 4]>::try_from(arguments.corners.as_slice())
-        .or_else(|_| refused("--corners", "expected four corners"))?;
+    let (picture, corners) = picture(request, path, &arguments.corners)?;
     let [columns, rows] = arguments.grid;
     let grid = ChartGrid::new(corners, columns, rows).map_err(|error| in_file(path, error))?;
-    let picture = ChartPicture::decode(&bytes).map_err(|error| in_file(path, error))?;
     picture.rows(&grid, levels).map_err(|error| in_file(path, error))
+}
+
+/// Picture of a chart with the corners of its grid: those that are named, else those that are found.
+pub(super) fn picture(
+    request: &mut Request,
+    path: &Path,
+    corners: &[[f64; 2]],
+) -> Result<(ChartPicture, [[f64; 2]; 4])> {
+    let bytes = request.bytes(path)?;
+    let picture = ChartPicture::decode(&bytes).map_err(|error| in_file(path, error))?;
+    let named = <[[f64; 2]; 4]>::try_from(corners).ok();
+    let why = "no chart of 24 patches was found for certain; name its corners with --corners";
+    let corners = named.or_else(|| picture.find_chart()).ok_or_else(|| in_file(path, why))?;
+    Ok((picture, corners))
 }
 
 fn chart_spectra(request: &Request) -> Result<Spectra> {

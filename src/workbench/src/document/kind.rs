@@ -1,4 +1,4 @@
-//! The kinds of data sets.
+//! The kinds of data sets, and how a sensor and a light are named.
 
 use chromascope_text::choices;
 use serde::{Deserialize, Serialize};
@@ -18,6 +18,14 @@ choices! {
         Material = "materials", "material", "Single reflectances";
         Unsorted = "unsorted spectra", "unsorted spectrum", "Spectra of unknown quantity";
     }
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Light {
+    Set(String),
+    BlackBody,
+    Daylight,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]

@@ -140,6 +140,16 @@ impl Document {
         if self.correction.second_light.as_mut().is_some_and(|name| !keep(SetKind::Illuminant, name)) {
             self.correction.second_light = None;
         }
+        for shot in &mut self.measurement.shots {
+            if !keep(SetKind::Chart, &mut shot.chart) {
+                CHART.clone_into(&mut shot.chart);
+            }
+            if let Some(Light::Set(name)) = &mut shot.light
+                && !keep(SetKind::Illuminant, name)
+            {
+                shot.light = None;
+            }
+        }
         if !keep(SetKind::Material, &mut self.render.material) {
             self.render.material = RenderSettings::default().material;
         }

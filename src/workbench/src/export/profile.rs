@@ -1,7 +1,7 @@
 //! Color corrections out of the program: text, DNG values, DCP, ICC, CLF.
 
 mod query;
-mod shot;
+pub mod shot;
 
 use std::fmt::Write as _;
 
@@ -21,8 +21,6 @@ use chromascope_profile::clf::Clf;
 use chromascope_profile::dcp::{Calibration, CalibrationIlluminant, Dcp};
 use chromascope_profile::icc::{D50, IccProfile, IccVersion};
 use chromascope_profile::{Matrix, ProfileError};
-
-pub use shot::ShotCorrection;
 
 pub use query::{CorrectionFileQuery, CorrectionRequest, unique_camera_model};
 

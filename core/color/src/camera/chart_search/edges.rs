@@ -5,8 +5,8 @@ use chromascope_math::ln::ln_1p;
 use chromascope_math::quantile::quantile;
 use glam::{DMat3, DVec2, DVec3};
 
+use super::found::{CHART_SIZE, FoundChart, PATCHES, corners, pixel_at, project};
 use super::lattice::add_row;
-use super::{CHART_SIZE, FoundChart, PATCHES, corners, pixel_at, project};
 use crate::camera::chart_grid::homography;
 
 /// Rounds of finding edges and moving the grid; in the first [`WIDE`] edges are looked for in [`RANGE`], after the first [`COMPRESSED`] in

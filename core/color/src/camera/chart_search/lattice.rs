@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use chromascope_math::dense::Cholesky;
 use glam::{DMat3, DVec2};
 
-use super::project;
+use super::found::project;
 use super::quads::Quad;
 
 /// Rounds in which a lattice is extended.

@@ -213,7 +213,7 @@ impl Problem {
         }
     }
 
-    /// Spread of ln b about the means of the shots, by the squares over the number of brightnesses that the data determine (MacKay 1992).
+    /// Spread of ln b about the means of the shots, by the squares over the number of brightnesses that the data determine (`MacKay` 1992).
     fn spread(&self, x: &[f64], hessian: &Cholesky, former: f64) -> f64 {
         let count = self.patches.len();
         let mut columns = vec![0.0; x.len() * count];

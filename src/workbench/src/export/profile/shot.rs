@@ -7,7 +7,7 @@ use chromascope_core::correction::dng::{DngMatrices, ProfileMatrix};
 use chromascope_core::glam::{DMat3, DVec3};
 use chromascope_core::recovery::ShotProfile;
 use chromascope_profile::dcp::Dcp;
-use chromascope_profile::icc::{D50, IccProfile};
+use chromascope_profile::icc::{D50, IccProfile, IccVersion};
 
 use super::{CorrectionFileError, CorrectionForm, calibration, clf, rows, unique_camera_model};
 
@@ -23,6 +23,10 @@ pub struct ShotCorrection<'a> {
 }
 
 impl ShotCorrection<'_> {
+    /// Forms that it can be written in.
+    pub const FORMS: [CorrectionForm; 3] =
+        [CorrectionForm::Dcp, CorrectionForm::Icc(IccVersion::V4), CorrectionForm::Clf];
+
     /// DCP of all lights; ICC and CLF of the first.
     pub fn written(&self, form: CorrectionForm) -> Result<Vec<u8>, CorrectionFileError> {
         let name = match form {
@@ -74,6 +78,6 @@ impl ShotCorrection<'_> {
 
 /// The 3×3 that is fitted to the recorded patches.
 fn matrix(profile: &ShotProfile) -> Option<DMat3> {
-    let fits = profile.fits.iter().map(|[patches, _]| &patches.transform);
-    fits.filter_map(|transform| if let RgbTransform::Matrix(matrix) = transform { Some(*matrix) } else { None }).next()
+    let mut fits = profile.fits.iter().map(|[patches, _]| &patches.transform);
+    fits.find_map(|transform| if let RgbTransform::Matrix(matrix) = transform { Some(*matrix) } else { None })
 }

@@ -313,7 +313,7 @@ impl<'a> Heads<'a> {
         };
         let form = (0..4).find(|form| fit(&short, *form)).unwrap_or(4);
         let names = if fit(&full, form) { full } else { short };
-        Self { form, names, ..heads }
+        Self { names, form, ..heads }
     }
 
     fn is_below(&self) -> bool {

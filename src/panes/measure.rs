@@ -1,0 +1,149 @@
+//! The user's own camera from pictures of a chart: picture, patches, curves and profile in one column.
+
+mod picture;
+mod results;
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use chromascope_core::query::ChartMeasurement;
+use egui::{Label, Rect, RichText, TextEdit, Ui};
+
+use super::context::{Pane, PaneContext};
+use crate::action::Action;
+use crate::command::Command;
+use crate::document::measurement::{MeasuredShot, Measurement};
+use crate::document::{Light, SetKind};
+use crate::format::sentence;
+use crate::panes::widgets;
+use crate::panes::widgets::pick_list::{self, Line};
+use crate::scene::recovery::MeasuredCameraQuery;
+use crate::theme::UNIT;
+use crate::workspaces::PaneKind;
+
+pub const PANE: Pane = Pane::new(PaneKind::MEASURE, "Measure", show).tab("Measure a camera");
+
+const ABOUT: &str = "Photograph a chart of 24 patches (ColorChecker), evenly lit, slightly underexposed and slightly out of \
+    focus, as a raw file, and drop it here: DNG, or a linear 16-bit TIFF or PNG. The camera's sensitivities are estimated from \
+    its raw values with those of the library as a prior: good for color, a guess where the band is wide.";
+const PICK: f32 = 220.0;
+const NAME: f32 = 220.0;
+
+/// What the pane keeps from frame to frame.
+#[derive(Default)]
+struct State {
+    /// Corners that are clicked or dragged.
+    corners: Vec<[f64; 2]>,
+    /// The corner that is dragged.
+    held: Option<usize>,
+    /// The picture whose chart was taken over as found.
+    taken: Option<PathBuf>,
+    /// The last question, and what it is of.
+    asked: Option<(Measurement, MeasuredCameraQuery)>,
+    /// The last answer, and the question.
+    shown: Option<(MeasuredCameraQuery, Arc<ChartMeasurement>)>,
+}
+
+fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
+    let body = widgets::body(ui, &PANE, rect, context, |ui, context| {
+        context.button(ui, "Open picture…", "Open a raw picture of a chart", Command::OpenRecorded);
+        if context.scene.document.measurement.shots.is_empty() {
+            return;
+        }
+        results::add(ui, context);
+        if ui.button("Start anew").on_hover_text("Remove all pictures of this measurement").clicked() {
+            context.view.recorded.photo = None;
+            change(context, "Start a measurement anew", |measurement| *measurement = Measurement::default());
+        }
+    });
+    widgets::scroll(ui, (PANE.kind, "measure"), body, context, |ui, context| {
+        let is_empty = context.scene.document.measurement.shots.is_empty();
+        if is_empty && context.view.recorded.photo.is_none() {
+            ui.add(Label::new(ABOUT).wrap());
+            return;
+        }
+        picture::show(ui, context);
+        if !is_empty {
+            shots(ui, context);
+            results::show(ui, context);
+        }
+    });
+}
+
+/// Changes the measurement of the document, in a step of this name.
+fn change(context: &mut PaneContext<'_>, what: &'static str, how: impl FnOnce(&mut Measurement)) {
+    let mut to = context.scene.document.measurement.clone();
+    how(&mut to);
+    context.push(Action::Measure(what, Box::new(to)));
+}
+
+fn heading(ui: &mut Ui, words: &str) {
+    ui.add_space(2.0 * UNIT);
+    ui.strong(words);
+}
+
+fn wrong(ui: &mut Ui, words: &str, context: &PaneContext<'_>) {
+    ui.add(Label::new(RichText::new(sentence(words)).color(context.theme.error)).wrap());
+}
+
+/// Camera, and chart and light of each picture.
+fn shots(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let measurement = context.scene.document.measurement.clone();
+    ui.horizontal_wrapped(|ui| {
+        ui.label("Camera");
+        let mut name = measurement.camera.clone();
+        let field = ui.add(TextEdit::singleline(&mut name).desired_width(NAME).hint_text("Maker and model"));
+        widgets::labeled(&field, egui::Role::TextInput, "Name of the camera");
+        if field.changed() {
+            change(context, "Name of the camera", |measurement| measurement.camera = name);
+        }
+    });
+    for (index, shot) in measurement.shots.iter().enumerate() {
+        ui.push_id(index, |ui| ui.horizontal_wrapped(|ui| one_shot(ui, index, shot, context)));
+    }
+}
+
+fn one_shot(ui: &mut Ui, index: usize, shot: &MeasuredShot, context: &mut PaneContext<'_>) {
+    let (scene, theme) = (context.scene, context.theme);
+    ui.label(&shot.file);
+    ui.label("under");
+    let mut lights = vec![(Line::new("Daylight of unknown temperature", shot.light.is_none()), None)];
+    let of_scene = (scene.document.light.clone(), scene.document.temperature_k);
+    if !matches!(of_scene.0, Light::Set(_)) {
+        let words = format!("As in the scene bar: {}", scene.light_name());
+        lights.push((Line::new(words, shot.light.as_ref() == Some(&of_scene.0)), Some(of_scene)));
+    }
+    lights.extend(scene.entries(SetKind::Illuminant).map(|entry| {
+        let light = Light::Set(entry.name.clone());
+        (Line::of_set(&entry, shot.light.as_ref() == Some(&light)), Some((light, shot.temperature_k)))
+    }));
+    let now = match &shot.light {
+        None => "Daylight of unknown temperature".to_owned(),
+        Some(Light::Set(name)) => name.clone(),
+        Some(Light::BlackBody) => format!("blackbody {:.0} K", shot.temperature_k),
+        Some(Light::Daylight) => format!("daylight {:.0} K", shot.temperature_k),
+    };
+    let hint = ("Light of the picture", "The light that the chart was photographed under");
+    let lines = || lights.iter().map(|(line, _)| line.clone()).collect();
+    if let Some(chosen) = pick_list::drop_down(ui, hint, now, PICK, &theme, lines) {
+        let to = lights[chosen].1.clone();
+        change(context, "Light of a picture", |measurement| {
+            let shot = &mut measurement.shots[index];
+            shot.light = to.as_ref().map(|(light, _)| light.clone());
+            shot.temperature_k = to.map_or(shot.temperature_k, |(_, kelvin)| kelvin);
+        });
+    }
+    ui.label("on");
+    let charts: Vec<_> = [SetKind::Chart, SetKind::Material].into_iter().flat_map(|kind| scene.entries(kind)).collect();
+    let lines = || charts.iter().map(|entry| Line::of_set(entry, entry.name == shot.chart)).collect();
+    let hint = ("Chart of the picture", "Measured reflectances of the chart, yours or those of its edition");
+    if let Some(chosen) = pick_list::drop_down(ui, hint, shot.chart.as_str(), PICK, &theme, lines) {
+        let name = charts[chosen].name.clone();
+        change(context, "Chart of a picture", |measurement| measurement.shots[index].chart = name);
+    }
+    if ui.button("Remove").on_hover_text("Remove this picture from the measurement").clicked() {
+        change(context, "Remove a picture", |measurement| {
+            measurement.shots.remove(index);
+        });
+    }
+}
