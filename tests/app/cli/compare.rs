@@ -39,6 +39,18 @@ fn the_whole_library_is_ranked() {
 }
 
 #[test]
+fn an_own_file_has_its_place_among_the_built_in() {
+    let own = file("own.csv", &std::fs::read_to_string("assets/cameras/nikon_d700.csv").unwrap());
+    let own = own.to_str().unwrap();
+    let metrics = ["--library", "--format", "csv", "--metrics", "vora"];
+    let rows = table(&[&["compare", "--camera", own], &metrics[..]].concat());
+    assert_eq!(rows.len(), 1 + 59);
+    // A built-in camera that is named stands once.
+    let rows = table(&[&["compare", "--camera", "Kodak DCS200"], &metrics[..]].concat());
+    assert_eq!(rows.len(), 1 + 58);
+}
+
+#[test]
 fn one_number_in_three_forms() {
     let named = ["compare", "--camera", "Kodak DCS200", "--metrics", "delta-e2000-mean,cct-error"];
     let rows = table(&[&named[..], &["--format", "csv"]].concat());

@@ -47,6 +47,9 @@ pub(super) struct CompareArguments {
     /// illuminant, otherwise 2856]
     #[arg(long, value_name = "K")]
     temperature: Option<f64>,
+    /// All built-in cameras beside those of --camera
+    #[arg(long)]
+    library: bool,
     #[command(flatten)]
     pixel: PixelArguments,
 }
@@ -73,6 +76,7 @@ fn examples() -> String {
         "Examples:
   chromascope compare
   chromascope compare --camera \"Nikon D70 (A.M.P.A.S.)\" --camera mine.csv --illuminant A --metrics all
+  chromascope compare --camera mine.csv --library
   chromascope compare --sort metamerism-index --metrics metamerism-index,metamerism-index-min,vora,luther
   chromascope compare --correction min-delta-e --chart leaves.csv --format csv --out ranking.csv
 
@@ -127,9 +131,12 @@ struct Row {
 pub(super) fn run(arguments: &CompareArguments, matches: &ArgMatches) -> Result<()> {
     let mut request = Request::new(&arguments.common, matches)?;
     arguments.chart.set(&mut request)?;
-    if arguments.common.sources.names_no_sensor() {
-        let cameras = request.catalog.of_kind(SetKind::Camera);
-        request.sources = cameras.map(|entry| (SetKind::Camera, entry.name.clone())).collect();
+    let alone = arguments.common.sources.names_no_sensor();
+    if alone || arguments.library {
+        let own = if alone { Vec::new() } else { std::mem::take(&mut request.sources) };
+        let built_in = request.catalog.of_kind(SetKind::Camera).map(|entry| (SetKind::Camera, entry.name.clone()));
+        let others = built_in.filter(|source| !own.contains(source)).collect::<Vec<_>>();
+        request.sources = own.into_iter().chain(others).collect();
     }
     request.document.pixel = arguments.pixel.pixel()?;
     if let Some(wrong) = arguments.temperature.filter(|kelvin| !(1.0..=1e15).contains(kelvin)) {
