@@ -7,8 +7,8 @@ use chromascope_core::correction::Correction;
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::patch_set::{COLOR_CHECKER_CHROMATIC, PatchSet};
 use chromascope_core::query::metrics::{
-    Better, Contributions, Difference, LocusDeviationQuery, MetricGroup, MetricSet, Statistic, UncertaintySource,
-    rank_ranges,
+    Better, Contributions, Difference, LocusDeviationQuery, MetricGroup, MetricSet, ReferenceLocusQuery, Statistic,
+    UncertaintySource, rank_ranges,
 };
 use chromascope_core::query::{
     Ask, CameraMetric, CameraMetrics, CameraMetricsQuery, ColorTransformSpec, DifferenceError, Direct, IndexConditions,
@@ -222,6 +222,31 @@ fn cameras_misread_the_temperature_of_illuminant_a() {
         assert_near(path, deviation.cct_error_k.unwrap(), nearest.1, 0.02);
         let parts = deviation.along.hypot(deviation.off);
         assert_near("both parts", parts, colors[0].distance(colors[1]), 1e-12);
+    }
+}
+
+/// Uncertainties go by the locus between its points; the deviations are the same from the hottest to the coldest, and beyond.
+#[test]
+fn between_its_points_the_locus_is_the_same() {
+    let asked = query_under("illuminants/e.csv", sensor(DCS200), &ColorTransformSpec::Paper, sensor(REFERENCE));
+    let locus = Direct.ask(&ReferenceLocusQuery(asked.reference.clone()));
+    let locus = (*locus).as_ref().unwrap();
+    for kelvin_ in [510.0, 2856.0, 4000.0, 6503.6, 25_000.0, 88_000.0, 150_000.0] {
+        let (temperatures, constants) = (Temperatures::List(vec![kelvin(kelvin_)]), RadiationConstants::Paper);
+        let own = Direct.ask(&LocusQuery { rendering: asked.reference.clone(), temperatures, constants });
+        let own = (*own).as_ref().unwrap().points[0].uv.unwrap();
+        for [u, v] in [[0.0, 0.0], [0.003, 0.002], [-0.004, 0.001], [0.01, -0.02]] {
+            let color = UvPrime { u: own.u + u, v: own.v + v };
+            let [exact, between] =
+                [locus.deviation(kelvin(kelvin_), color), locus.deviation_between(kelvin(kelvin_), color)]
+                    .map(Option::unwrap);
+            assert_near("along", between.along, exact.along, 1e-9);
+            assert_near("off", between.off, exact.off, 1e-9);
+            assert_eq!(between.cct_error_k.is_some(), exact.cct_error_k.is_some(), "{kelvin_} K");
+            if let (Some(between), Some(exact)) = (between.cct_error_k, exact.cct_error_k) {
+                assert_near("temperature", between, exact, 1e-7 * kelvin_ * (kelvin_ / 2856.0));
+            }
+        }
     }
 }
 

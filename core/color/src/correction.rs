@@ -145,7 +145,7 @@ impl Training<'_> {
                     .map(RgbTransform::Matrix)
             }
             CorrectionMethod::LeastSquares => {
-                let coefficients = self.linear(None, |rgb| rgb.to_array().to_vec())?.coefficients;
+                let coefficients = self.linear(None, |rgb| rgb.to_array())?.coefficients;
                 Ok(RgbTransform::Matrix(DMat3::from_cols(coefficients[0], coefficients[1], coefficients[2])))
             }
             CorrectionMethod::Minimize(objective) => {
@@ -176,7 +176,7 @@ impl Training<'_> {
         let keep = correction.keeps_white.then_some(white.to_vector());
         let leverages = match correction.method {
             CorrectionMethod::None => vec![0.0; self.samples.len()],
-            CorrectionMethod::LeastSquares => self.linear(keep, |rgb| rgb.to_array().to_vec())?.leverages,
+            CorrectionMethod::LeastSquares => self.linear(keep, |rgb| rgb.to_array())?.leverages,
             CorrectionMethod::RootPolynomial(degree) => self.linear(keep, |rgb| degree.terms(rgb))?.leverages,
             CorrectionMethod::Minimize(_) => return Ok(self.refitted(correction, white, fitted, stop)),
         };
@@ -222,14 +222,17 @@ impl Training<'_> {
         (0..self.samples.len()).into_par_iter().map(without).collect()
     }
 
-    fn linear(
+    fn linear<R: AsMut<[f64]> + AsRef<[f64]>>(
         self,
         keep: Option<DVec3>,
-        terms: impl Fn(DVec3) -> Vec<f64>,
+        terms: impl Fn(DVec3) -> R,
     ) -> Result<crate::math::least_squares::LinearFit, FitError> {
-        let rows = self.samples.iter().zip(self.weights);
-        let rows = rows.map(|(rgb, weight)| terms(*rgb).into_iter().map(|v| v * weight.sqrt()).collect());
-        let rows: Vec<Vec<f64>> = rows.collect();
+        let rows = self.samples.iter().zip(self.weights).map(|(rgb, weight)| {
+            let mut row = terms(*rgb);
+            row.as_mut().iter_mut().for_each(|v| *v *= weight.sqrt());
+            row
+        });
+        let rows: Vec<R> = rows.collect();
         let targets = self.targets.iter().zip(self.weights);
         let targets: Vec<DVec3> = targets.map(|(target, weight)| *target * weight.sqrt()).collect();
         linear_fit(&rows, &targets, keep)

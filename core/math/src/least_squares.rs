@@ -77,20 +77,21 @@ pub struct LinearFit {
 ///
 /// # Errors
 /// [`FitError`] where the samples do not determine the coefficients.
-pub fn linear_fit(rows: &[Vec<f64>], targets: &[DVec3], keep: Option<DVec3>) -> Result<LinearFit, FitError> {
-    let terms = rows.first().map_or(0, Vec::len);
+pub fn linear_fit<R: AsRef<[f64]>>(rows: &[R], targets: &[DVec3], keep: Option<DVec3>) -> Result<LinearFit, FitError> {
+    let terms = rows.first().map_or(0, |row| row.as_ref().len());
     let fixed = usize::from(keep.is_some());
     if terms <= fixed || rows.len() < terms - fixed {
         return Err(FitError::TooFew { samples: rows.len(), needed: terms.max(fixed + 1) - fixed });
     }
     let length = (terms as f64).sqrt();
-    let reflected = |row: &[f64]| keep.map_or_else(|| row.to_vec(), |_| reflect(row));
-    let rows: Vec<Vec<f64>> = rows.iter().map(|row| reflected(row)).collect();
+    let reflected: Option<Vec<_>> = keep.map(|_| rows.iter().map(|row| reflect(row.as_ref())).collect());
+    let row = |at: usize| reflected.as_ref().map_or_else(|| rows[at].as_ref(), |rows| &rows[at][..]);
+    let all = || (0..rows.len()).map(row);
     let first = keep.map(|image| image / length);
     let mut residuals: Vec<DVec3> =
-        rows.iter().zip(targets).map(|(row, target)| first.map_or(*target, |first| *target - first * row[0])).collect();
-    let scale = rows.iter().flatten().map(|v| v * v).sum::<f64>().sqrt();
-    let mut columns: Vec<Vec<f64>> = (fixed..terms).map(|j| rows.iter().map(|row| row[j]).collect()).collect();
+        all().zip(targets).map(|(row, target)| first.map_or(*target, |first| *target - first * row[0])).collect();
+    let scale = all().flatten().map(|v| v * v).sum::<f64>().sqrt();
+    let mut columns: Vec<Vec<f64>> = (fixed..terms).map(|j| all().map(|row| row[j]).collect()).collect();
     let count = columns.len();
     let mut upper = vec![vec![0.0; count]; count];
     let mut projected = vec![DVec3::ZERO; count];

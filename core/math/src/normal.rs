@@ -107,17 +107,28 @@ impl CovarianceRoot {
     }
 
     fn basis(&self, kernels: &[Vec<f64>]) -> Vec<Vec<f64>> {
-        let mut found: Vec<Vec<f64>> = Vec::new();
-        for kernel in kernels {
-            let kernel: Vec<f64> = self.columns.iter().map(|(first, column)| dot(column, &kernel[*first..])).collect();
-            let rest = without(&without(&kernel, &found), &found);
-            let [length, left] = [&kernel, &rest].map(|of| dot(of, of).sqrt());
-            if left > DEPENDENT * length {
-                found.push(rest.iter().map(|v| v / left).collect());
-            }
-        }
-        found
+        let kernel =
+            |kernel: &Vec<f64>| self.columns.iter().map(|(first, column)| dot(column, &kernel[*first..])).collect();
+        let kernels: Vec<Vec<f64>> = kernels.iter().map(kernel).collect();
+        orthonormal(Vec::new(), &kernels)
     }
+}
+
+/// An orthonormal basis with what some vectors add to its space, by Gram and Schmidt's method done twice: nothing where they lie in it.
+pub fn orthonormal<'a>(mut basis: Vec<Vec<f64>>, vectors: impl IntoIterator<Item = &'a Vec<f64>>) -> Vec<Vec<f64>> {
+    for vector in vectors {
+        let rest = without(&without(vector, &basis), &basis);
+        let [length, left] = [vector, &rest].map(|of| dot(of, of).sqrt());
+        if left > DEPENDENT * length {
+            basis.push(rest.iter().map(|v| v / left).collect());
+        }
+    }
+    basis
+}
+
+/// Coordinates of a vector in an orthonormal basis.
+pub fn coordinates(vector: &[f64], basis: &[Vec<f64>]) -> Vec<f64> {
+    basis.iter().map(|axis| dot(vector, axis)).collect()
 }
 
 /// Points of a standard normal distribution of so many dimensions, always the same: with their opposites they have mean 0 and exactly the

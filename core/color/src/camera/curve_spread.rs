@@ -1,10 +1,13 @@
 //! Spread of published sensitivities of one camera model between laboratories: what a table of an unknown laboratory may be off by.
 
+use crate::math::dot::dot;
 use crate::math::interpolation::Sprague;
 use crate::math::normal::CovarianceRoot;
 use crate::spectral::grid::{COUNT, FIRST_NM};
 use crate::spectral::{Dataset, Sensor};
 use crate::units::{bits, hash_by};
+use glam::DVec3;
+use multiversion::multiversion;
 
 /// Wavelengths that the spread is known at: 400, 410, …, 700 nm.
 pub const SITES: usize = 31;
@@ -93,6 +96,54 @@ pub fn site_curve(site: usize) -> [f64; COUNT] {
         }
     }
     values
+}
+
+/// Spectra side by side: any register's width.
+const LANES: usize = 8;
+
+/// Responses to spectra of a deviation of 1 at each site, from which those of any deviation follow.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SiteResponses {
+    count: usize,
+    blocks: Vec<[[f64; LANES]; SITES]>,
+}
+
+impl SiteResponses {
+    /// Responses to these spectra, integrated over 400–700 nm as tables are, with half weights at the ends.
+    pub fn new(spectra: &[[f64; COUNT]]) -> Self {
+        let sites: [[f64; COUNT]; SITES] = std::array::from_fn(|site| {
+            let mut weighted = site_curve(site);
+            SITE_RANGE.iter().for_each(|end| weighted[*end] *= 0.5);
+            weighted
+        });
+        let block = |spectra: &[[f64; COUNT]]| {
+            sites.each_ref().map(|site| std::array::from_fn(|lane| spectra.get(lane).map_or(0.0, |of| dot(site, of))))
+        };
+        Self { count: spectra.len(), blocks: spectra.chunks(LANES).map(block).collect() }
+    }
+
+    /// Responses of the three channels' deviations, for each spectrum.
+    pub fn of(&self, deviation: &Deviation) -> impl Iterator<Item = DVec3> {
+        let lanes = |[red, green, blue]: [[f64; LANES]; 3]| {
+            std::array::from_fn::<_, LANES, _>(|lane| DVec3::new(red[lane], green[lane], blue[lane]))
+        };
+        self.blocks.iter().flat_map(move |block| lanes(response(block, deviation))).take(self.count)
+    }
+}
+
+/// No operation is fused, so that all instruction sets give the same bits.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
+fn response(block: &[[f64; LANES]; SITES], deviation: &Deviation) -> [[f64; LANES]; 3] {
+    let mut sums = [[0.0; LANES]; 3];
+    for (site, row) in block.iter().enumerate() {
+        let [red, green, blue] = [deviation[0][site], deviation[1][site], deviation[2][site]];
+        for lane in 0..LANES {
+            sums[0][lane] += red * row[lane];
+            sums[1][lane] += green * row[lane];
+            sums[2][lane] += blue * row[lane];
+        }
+    }
+    sums
 }
 
 /// A sensor's curves at the sites with each channel's peak between them at 1, and these peaks.

@@ -251,11 +251,15 @@ pub struct ObserverSpace {
 impl ObserverSpace {
     /// Space of an observer; none where its curves are linearly dependent.
     pub fn new(observer: &Sensor) -> Option<Self> {
-        let curves = curves(observer);
+        Self::of(curves(observer))
+    }
+
+    /// Space of an observer's curves on the grid, or in coordinates of an orthonormal basis; none where they are linearly dependent.
+    pub fn of(curves: [Vec<f64>; 3]) -> Option<Self> {
         Some(Self { basis: basis(&curves)?, curves })
     }
 
-    /// Agreement of a sensor's curves on the grid, in one scale; none where they are linearly dependent.
+    /// Agreement of a sensor's curves, in one scale and the coordinates of the observer's; none where they are linearly dependent.
     pub fn quality(&self, channels: &[Vec<f64>; 3]) -> Option<SpaceQuality> {
         let (own, seen) = (basis(channels)?, &self.basis);
         let vora = own.iter().map(|curve| inside(curve, seen)).sum::<f64>() / 3.0;

@@ -9,7 +9,7 @@ use super::table::CameraMetric;
 use super::value::{CameraMetricsQuery, IndexConditions, WhyNot};
 use crate::ask::{Ask, Query, Shared};
 use crate::patches::{FitTargetsQuery, PatchColor, PatchColorsQuery, color};
-use chromascope_color::camera::curve_spread::{Deviation, SITE_RANGE, SITES, site_curve};
+use chromascope_color::camera::curve_spread::{Deviation, SITES, SiteResponses, site_curve};
 use chromascope_color::camera::quality::{IndexSamples, ObserverSpace, SpaceQuality, curves};
 use chromascope_color::camera::{FitTargets, LocusDeviation, ReferenceLocus, Rendering, RenderingError};
 use chromascope_color::correction::RgbTransform;
@@ -20,14 +20,12 @@ use chromascope_color::patch_set::PatchSet;
 use chromascope_color::spectral::grid::COUNT;
 use chromascope_color::spectral::{GridSpectrum, Sensor};
 use chromascope_color::units::Kelvin;
-use chromascope_math::dot::{dot, dot_each};
+use chromascope_math::normal::{coordinates, orthonormal};
 use glam::{DMat3, DVec3};
 use std::cell::LazyCell;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Sites of a deviation, filled up so that dot products have no rest.
-const PADDED: usize = 32;
 /// Places of single stimuli: the light, equal energy, the blackbody, the light of the index. Then come patches under their lights.
 const LIGHT: usize = 0;
 const FLAT: usize = 1;
@@ -51,13 +49,15 @@ pub(super) struct StimuliQuery {
 /// Those spectra, with the response to each of a deviation of 1 at each site; and what the metrics of spaces need.
 pub(super) struct Stimuli {
     spectra: Vec<[f64; COUNT]>,
-    of_sites: Vec<[f64; PADDED]>,
+    of_sites: SiteResponses,
     patches: Range<usize>,
     training: Range<usize>,
     index: Range<usize>,
-    /// First place and values of the curve of each site.
-    sites: Vec<(usize, Vec<f64>)>,
     observer: Option<ObserverSpace>,
+    /// Orthonormal basis of the curves of the sites and of the observer, and their coordinates: those of sites one behind the other.
+    basis: Vec<Vec<f64>>,
+    sites: Vec<Vec<f64>>,
+    seen: [Vec<f64>; 3],
 }
 
 impl StimuliQuery {
@@ -91,33 +91,34 @@ impl Query for StimuliQuery {
         let patches = add(&self.light, &self.patches);
         let training = self.training.as_ref().map_or(SINGLE..SINGLE, |training| add(&self.light, training));
         let index = add(index_light, &self.index.patches);
-        let sites: Vec<[f64; COUNT]> = (0..SITES).map(site_curve).collect();
-        let weighted: Vec<[f64; COUNT]> = sites.iter().map(trapezoid).collect();
-        let of_sites = |spectrum: &[f64]| padded(weighted.iter().map(|curve| dot(curve, spectrum)));
         let observer = ObserverSpace::new(&self.observer);
-        let of_sites = spectra.iter().map(|spectrum| of_sites(spectrum)).collect();
-        let sites = sites.iter().map(|curve| {
-            let first = curve.iter().position(|value| *value != 0.0).unwrap_or(COUNT);
-            let last = curve.iter().rposition(|value| *value != 0.0).map_or(first, |last| last + 1);
-            (first, curve[first..last].to_vec())
-        });
-        Stimuli { sites: sites.collect(), spectra, of_sites, patches, training, index, observer }
+        let sites: Vec<Vec<f64>> = (0..SITES).map(|site| site_curve(site).to_vec()).collect();
+        let curves = curves(&self.observer);
+        let basis = orthonormal(Vec::new(), sites.iter().chain(&curves));
+        let (sites, seen) =
+            (sites.iter().map(|of| coordinates(of, &basis)).collect(), curves.map(|of| coordinates(&of, &basis)));
+        Stimuli {
+            of_sites: SiteResponses::new(&spectra),
+            spectra,
+            patches,
+            training,
+            index,
+            observer,
+            basis,
+            sites,
+            seen,
+        }
     }
 }
 
-/// Half weights at the ends of 400–700 nm, as integrals of tables have them.
-fn trapezoid(curve: &[f64; COUNT]) -> [f64; COUNT] {
-    let mut weighted = *curve;
-    for end in SITE_RANGE {
-        weighted[end] *= 0.5;
+impl Stimuli {
+    /// The observer's space and a camera's curves in coordinates of one orthonormal basis.
+    fn space(&self, curves: &[Vec<f64>; 3]) -> Option<(ObserverSpace, [Vec<f64>; 3])> {
+        let basis = orthonormal(self.basis.clone(), curves);
+        let mut seen = self.seen.clone();
+        seen.iter_mut().for_each(|curve| curve.resize(basis.len(), 0.0));
+        Some((ObserverSpace::of(seen)?, curves.each_ref().map(|curve| coordinates(curve, &basis))))
     }
-    weighted
-}
-
-fn padded(values: impl Iterator<Item = f64>) -> [f64; PADDED] {
-    let mut filled = [0.0; PADDED];
-    filled.iter_mut().zip(values).for_each(|(place, value)| *place = value);
-    filled
 }
 
 /// A camera with all that its metrics under deviations need.
@@ -136,6 +137,8 @@ pub(super) struct Perturbed<'a> {
     locus: Arc<Result<ReferenceLocus<Shared<Sensor>>, RenderingError>>,
     /// Curves, peaks at 1.
     curves: [Vec<f64>; 3],
+    /// The observer and these curves in coordinates of the stimuli's basis and what the curves add to it: far fewer than wavelengths.
+    space: Option<(ObserverSpace, [Vec<f64>; 3])>,
     scale: Result<(), WhyNot>,
 }
 
@@ -153,6 +156,7 @@ impl<'a> Perturbed<'a> {
         let rendering = ask.ask(&of.rendering);
         let rendering = (*rendering).as_ref().ok()?;
         let index = ask.ask(&IndexSamplesQuery(of.index.clone()));
+        let curves = [0, 1, 2].map(|c: usize| (0..COUNT).map(|i| sensor.at_index(i)[c] / peaks[c]).collect());
         let mut found = Self {
             targets: of.rendering.transform.fit().map(|(reference, training, _)| {
                 let (reference, light) = (reference.clone(), of.rendering.light.clone());
@@ -165,7 +169,8 @@ impl<'a> Perturbed<'a> {
             reference: ask.ask(&PatchColorsQuery { rendering: reference.clone(), patches }),
             way: DifferenceConditions::new(&of.rendering, &reference),
             locus: ask.ask(&ReferenceLocusQuery(reference)),
-            curves: [0, 1, 2].map(|c: usize| (0..COUNT).map(|i| sensor.at_index(i)[c] / peaks[c]).collect()),
+            space: stimuli.space(&curves),
+            curves,
             scale: channel_scale(sensor),
             peaks: DVec3::from_array(peaks),
             of,
@@ -197,12 +202,8 @@ impl<'a> Perturbed<'a> {
     }
 
     pub(super) fn values(&self, deviation: &Deviation) -> Vec<Result<f64, WhyNot>> {
-        let moved = deviation.map(|channel| padded(channel.into_iter()));
-        let shift = |of_sites: &[f64; PADDED]| {
-            self.peaks * DVec3::from_array(dot_each([&moved[0], &moved[1], &moved[2]], of_sites))
-        };
-        let raw: Vec<DVec3> =
-            self.raw.iter().zip(&self.stimuli.of_sites).map(|(own, sites)| *own + shift(sites)).collect();
+        let shifts = self.stimuli.of_sites.of(deviation);
+        let raw: Vec<DVec3> = self.raw.iter().zip(shifts).map(|(own, shift)| *own + self.peaks * shift).collect();
         self.metrics(&raw, || self.space(deviation))
     }
 
@@ -265,7 +266,7 @@ impl<'a> Perturbed<'a> {
         self.way.comparable?;
         let locus = (*self.locus).as_ref().map_err(|&e| e)?;
         let color = rendering.blackbody(raw.to_array()).uv_prime().ok_or(WhyNot::NoLocus)?;
-        locus.deviation(self.of.temperature, color).ok_or(WhyNot::NoLocus)
+        locus.deviation_between(self.of.temperature, color).ok_or(WhyNot::NoLocus)
     }
 
     fn index(&self, by: usize, samples: &[DVec3]) -> Result<f64, RenderingError> {
@@ -280,13 +281,13 @@ impl<'a> Perturbed<'a> {
     }
 
     fn space(&self, deviation: &Deviation) -> Option<SpaceQuality> {
-        let mut curves = self.curves.clone();
+        let (observer, mut curves) = self.space.as_ref().map(|(observer, curves)| (observer, curves.clone()))?;
         for (curve, deviation) in curves.iter_mut().zip(deviation) {
-            for ((first, site), by) in self.stimuli.sites.iter().zip(deviation) {
-                curve[*first..].iter_mut().zip(site).for_each(|(value, site)| *value += by * site);
+            for (site, by) in self.stimuli.sites.iter().zip(deviation) {
+                curve.iter_mut().zip(site).for_each(|(value, site)| *value += by * site);
             }
         }
-        self.stimuli.observer.as_ref()?.quality(&curves)
+        observer.quality(&curves)
     }
 
     /// What each metric may be off by because of the ratio of the channels, its relative standard uncertainty being the same for red and
