@@ -126,7 +126,7 @@ pub(super) fn mentions_absorbance(text: &str) -> bool {
 /// Returns whether a header names light on a scale of its own: `Relative power`, `Intensity (a.u.)`, `mW`.
 pub(super) fn names_light_scale(text: &str) -> bool {
     const WORDS: &str = "power|intensity|emission|energy|luminance|mw|µw|uw|nw|w";
-    let text = lower(text);
+    let text = lower(text).replace(" / ", "/");
     text.trim() == "a.u." || has_word(&text, WORDS) || words(&text).any(|word| word.starts_with("erg/"))
 }
 
@@ -172,7 +172,7 @@ const COUNTS: &str = "count|counts|adc|dn";
 /// by whole words. The first that is named counts.
 const QUANTITIES: [(Quantity, &str, &str); 14] = [
     (Quantity::Unknown, "chromaticity coord", ""),
-    (Quantity::QuantumEfficiency, "quantum eff", "qe"),
+    (Quantity::QuantumEfficiency, "quantum eff", "qe|eqe|iqe"),
     (
         Quantity::Sensitivity,
         "sensitivit|photosensitiv|responsiv|color match|colour match|color-match|colour-match|cone fund|empfindlichkeit|\

@@ -151,7 +151,7 @@ pub(super) fn is_light_unit(text: &str) -> bool {
 
 /// Returns whether a unit is one of a response to power or energy.
 pub(super) fn is_per_energy(unit: &str) -> bool {
-    is_one(&lower(unit), "a/w|ma/w|v/w|mv/w|1/w|1/j")
+    is_one(&lower(unit).replace(' ', ""), "a/w|ma/w|v/w|mv/w|1/w|1/j")
 }
 
 pub(super) fn is_photons(text: &str) -> bool {
@@ -194,6 +194,6 @@ pub(super) fn said_in_prose(line: &str) -> bool {
 /// photon.
 pub(super) fn says_per_photon(text: &str) -> bool {
     let lower = lower(text);
-    let qe = lower.split(|c: char| !c.is_alphanumeric()).any(|word| word == "qe");
+    let qe = lower.split(|c: char| !c.is_alphanumeric()).any(|word| is_one(word, "qe|eqe|iqe"));
     (qe || has_part(&lower, "quantum eff|quantal|per photon|/photon|per quantum")) && !lower.contains("energ")
 }

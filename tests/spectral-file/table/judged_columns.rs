@@ -96,3 +96,19 @@ fn names_stand_in_heads_of_other_makes() {
     let beside = ok("Wavelength(nm)  Radiance(W/sr/m2/nm)  Reflectance\n350 1.2 0.05\n351 1.3 0.06\n352 1.4 0.07\n");
     assert_eq!((beside.curves.len(), beside.curves[0].values[0], beside.role.value), (1, 0.05, Role::Reflectance));
 }
+
+#[test]
+fn units_right_behind_names_quantum_efficiencies_and_missing_values() {
+    let rows = "400,10.1,0.1\n410,11.1,0.2\n420,12.1,0.3\n";
+    uncertain(&format!("nm,mua[cm-1],mua_std[cm-1]\n{rows}"), &["mua[cm-1]"], 1.0, 0.1);
+    for unit in ["A / W", "A/W"] {
+        let table = ok(&format!("wavelength [nm],red [{unit}],blue [{unit}]\n{rows}"));
+        assert_ne!(table.role.value, Role::Illuminant, "{unit}");
+    }
+    assert_eq!(ok("nm,EQE(%)\n400,10\n410,11\n420,12\n").reading.quantity.value, Quantity::QuantumEfficiency);
+    let gaps = ok("nm,leaf reflectance\n400,0.1\n410,-9.999\n420,0.3\n430,0.4\n");
+    assert_eq!(gaps.curves[0].values, [0.1, 0.3, 0.4]);
+    let ends = "##TITLE=x\n##DATA TYPE=UV/VIS SPECTRUM\n##XUNITS=NANOMETERS\n##YUNITS=TRANSMITTANCE\n\
+                ##XYDATA=(XY..XY)\n400 0.1\n410 0.2\n420 0.3\n##END\n";
+    assert_eq!(ok(ends).curves[0].values.len(), 3);
+}

@@ -121,7 +121,10 @@ fn blocks(text: &str, log: &mut Log<'_>) -> Result<Vec<Block>, ReadError> {
     for (number, line) in Lines::new(text) {
         log.at(line.as_ptr() as usize - text.as_ptr() as usize)?;
         let line = line.split_once("$$").map_or(line, |(before, _)| before);
-        if let Some((key, value)) = line.trim_start().strip_prefix("##").and_then(|record| record.split_once('=')) {
+        let record = line.trim_start().strip_prefix("##");
+        // Some end without the sign.
+        let end = || record.filter(|record| label(record) == "END").map(|record| (record, ""));
+        if let Some((key, value)) = record.and_then(|record| record.split_once('=').or_else(end)) {
             let key = label(key);
             if key == "TITLE" || all.is_empty() {
                 all.last_mut().map_or(Ok(()), Block::close)?;
