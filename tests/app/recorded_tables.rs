@@ -53,6 +53,15 @@ fn rows_find_their_spectra_by_name_or_in_order() {
     assert_eq!(joined(&[None]), Err(JoinError::Count { rows: 1, spectra: 2 }));
     assert!(joined(&[Some("c")]).expect_err("refused").to_string().contains("\"c\"; there are Dark Skin, b"));
     assert!(matches!(joined(&[Some("b"), Some("b")]), Err(JoinError::Twice { line: 2, .. })));
+    // The 24 of a ColorChecker also by number, and by row and column.
+    let chart =
+        chromascope_core::patch_set::COLOR_CHECKER_CHROMATIC.iter().copied().chain(["w", "8", "6.5", "5", "3.5", "k"]);
+    let chart: Vec<_> = chart.map(|name| (name.to_owned(), GridSpectrum::constant(1.0))).collect();
+    for (written, name) in [("A01", "dark skin"), ("b2", "purplish blue"), ("D6", "k"), ("18", "cyan"), ("8", "8")] {
+        let found = join(&chart, &rows(&[Some(written)]), Levels::default()).expect(written);
+        assert_eq!(found[0].name, name, "{written}");
+    }
+    assert!(["E1", "A7", "25", "0"].iter().all(|name| join(&chart, &rows(&[Some(name)]), Levels::default()).is_err()));
     let levels = Levels { black: 64.0, clip: 100.0 };
     let row = RawRow { line: 1, name: Some("b".to_owned()), rgb: [65.0, 100.0, 64.0] };
     let patch = &join(&spectra, &[row], levels).expect("read")[0];

@@ -191,6 +191,15 @@ fn row(
     Ok(RawRow { line, name, rgb })
 }
 
+/// Place of a `ColorChecker`'s patch by its number, `1` to `24`, or by row and column, `A1` or `A01` to `D06`.
+fn place_of_24(name: &str) -> Option<usize> {
+    let name = name.trim();
+    let row = "ABCD".find(name.chars().next()?.to_ascii_uppercase());
+    let number: usize = row.map_or(name, |_| &name[1..]).parse().ok()?;
+    let columns = if row.is_some() { 6 } else { 24 };
+    (1..=columns).contains(&number).then(|| row.unwrap_or(0) * 6 + number - 1)
+}
+
 /// Patches with spectrum and raw values: by name where every row has one, else in order. Spectra without a row are omitted.
 pub fn join(
     spectra: &[(String, GridSpectrum)],
@@ -215,7 +224,8 @@ pub fn join(
     let mut patches = Vec::with_capacity(rows.len());
     for row in rows {
         let name = row.name.clone().unwrap_or_default();
-        let Some(at) = spectra.iter().position(|(known, _)| same(known, &name)) else {
+        let by_name = spectra.iter().position(|(known, _)| same(known, &name));
+        let Some(at) = by_name.or_else(|| place_of_24(&name).filter(|_| spectra.len() == 24)) else {
             let known: Vec<&str> = spectra.iter().take(5).map(|(name, _)| name.as_str()).collect();
             let more = if spectra.len() > known.len() { ", …" } else { "" };
             return Err(JoinError::Unknown { line: row.line, name, known: known.join(", ") + more });
