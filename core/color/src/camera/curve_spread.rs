@@ -113,7 +113,9 @@ impl SiteResponses {
     pub fn new(spectra: &[[f64; COUNT]]) -> Self {
         let sites: [[f64; COUNT]; SITES] = std::array::from_fn(|site| {
             let mut weighted = site_curve(site);
-            SITE_RANGE.iter().for_each(|end| weighted[*end] *= 0.5);
+            for end in SITE_RANGE {
+                weighted[end] *= 0.5;
+            }
             weighted
         });
         let block = |spectra: &[[f64; COUNT]]| {

@@ -116,7 +116,9 @@ impl Stimuli {
     fn space(&self, curves: &[Vec<f64>; 3]) -> Option<(ObserverSpace, [Vec<f64>; 3])> {
         let basis = orthonormal(self.basis.clone(), curves);
         let mut seen = self.seen.clone();
-        seen.iter_mut().for_each(|curve| curve.resize(basis.len(), 0.0));
+        for curve in &mut seen {
+            curve.resize(basis.len(), 0.0);
+        }
         Some((ObserverSpace::of(seen)?, curves.each_ref().map(|curve| coordinates(curve, &basis))))
     }
 }
