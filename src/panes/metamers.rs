@@ -7,7 +7,6 @@ use super::context::{Pane, PaneContext};
 use crate::action::{Action, RenderAction, SceneAction};
 use crate::document::render::RenderSettings;
 use crate::document::{SetKind, Subset};
-use crate::figures::report_card;
 use crate::panes::widgets;
 use crate::panes::widgets::table::DataTable;
 use crate::plot_item::{PlotItem, SensorId};
@@ -24,7 +23,7 @@ pub struct ClickedPair(pub Option<usize>);
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::body(ui, &PANE, rect, context, switches);
     let mut child = widgets::clipped(ui, "metamers", body);
-    let Some(camera) = report_card::camera(&context.scene, &context.view.look(PANE.kind)) else {
+    let Some(camera) = context.view.camera(&context.scene) else {
         child.weak("Add a camera.");
         return;
     };

@@ -302,7 +302,7 @@ fn a_report_card_is_a_figure_like_others() {
     let (catalog, results, document) = (Catalog::built_in(), Results::default(), Document::colorimetry());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
     let mut view = View::default();
-    view.saved.metrics.card = Some(camera("Kodak DCS200"));
+    view.selected = Some(PlotItem::Sensor(camera("Kodak DCS200")));
     let figure = panes::figure(PaneKind::REPORT_CARD, &scene, &view.look(PaneKind::REPORT_CARD), FigureRoom::default())
         .expect("a page");
     assert_eq!(figure.title, "Report card: Kodak DCS200");
@@ -319,7 +319,6 @@ fn a_report_card_is_a_figure_like_others() {
     assert!(svg.contains("wavelength (nm)"), "the axis is named");
     assert!(svg.contains("ΔE*00 mean") && export::png(&svg, 1.0).is_ok());
     view.selected = Some(PlotItem::Sensor(camera("Canon EOS 5D")));
-    view.saved.metrics.card = None;
     let figure = panes::figure(PaneKind::REPORT_CARD, &scene, &view.look(PaneKind::REPORT_CARD), FigureRoom::default())
         .expect("a page");
     assert_eq!(figure.title, "Report card: Canon EOS 5D", "follows the selection");

@@ -14,13 +14,14 @@ use chromascope::document::render::MeshChoice;
 use chromascope::document::{Document, Light, SetKind, session};
 use chromascope::files::Files;
 use chromascope::jobs::Executor;
+use chromascope::plot_item::PlotItem;
 use chromascope::view::RankedCameras;
 use chromascope::view::{DiagramFit, Offer, SavedView, Weight};
 use chromascope::workspaces::{PaneKind, Workspace};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::cpu_renderer::Cpu;
 use crate::import_switches::{Window, drop_file, own, says, settle, until};
@@ -98,6 +99,33 @@ fn a_light_a_chart_and_a_filter_wait_for_one_enter() {
         assert_eq!(conditions(&document(&window)), before, "{file}");
         assert!(window.query_by_label(button).is_none() && window.state().view.status.text.is_empty());
     }
+}
+
+#[test]
+fn a_file_shown_in_data_can_be_used_there() {
+    let mut window = window();
+    window.state_mut().view.show(PaneKind::IMPORT);
+    window.state_mut().view.selected = Some(PlotItem::of_set(SetKind::Camera, "Nikon D70 (2007 figure)"));
+    for (file, text, kind, name, button) in [
+        ("leaf.csv", LEAF, SetKind::Chart, "leaf", "Use as chart"),
+        ("glass.csv", GLASS, SetKind::Filter, "glass", "Use as filter"),
+        ("lamp.csv", LAMP, SetKind::Illuminant, "Lamp", "Use as light"),
+    ] {
+        drop_file(&mut window, file, text);
+        press(&mut window, Key::Escape);
+        window.get_by_role_and_label(Role::Button, button).click();
+        settle(&mut window);
+        assert!(document(&window).uses(kind, name), "{file}");
+    }
+    let row = |window: &Window| {
+        window
+            .query_all_by_role(Role::ListItem)
+            .find(|row| row.accesskit_node().label().is_some_and(|label| label.starts_with("glass: ")))
+            .map(|row| row.click())
+    };
+    row(&window).expect("a row of Import");
+    settle(&mut window);
+    window.get_by_role_and_label(Role::Button, "Remove filter");
 }
 
 #[test]

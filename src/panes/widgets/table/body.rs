@@ -311,6 +311,10 @@ impl Body<'_> {
             ui.painter().rect(rect.shrink(1.0), 3.0, self.theme.control, rim, StrokeKind::Inside);
         }
         let mut place = self.inner(rect);
+        if self.goes_on {
+            // The sign that more columns follow stands at the edge.
+            place.max.x = place.max.x.min(ui.clip_rect().right() - 3.0 * UNIT);
+        }
         if let Some(sorting) = self.sorting.as_ref().filter(|sorting| sorting.column == column.name) {
             let arrow = Rect::from_min_size(place.min, Vec2::new(8.0, HEAD_LINE));
             let arrow =
