@@ -76,7 +76,7 @@ fn pairs(ui: &mut Ui, place: Rect, camera: &SensorId, found: &FoundMetamers, con
         "",
         "Largest difference of a balanced camera channel, each through the CIE lightness function (0 to 100).",
     ];
-    let heads = ["reflectance", "reference", "camera", "ΔE*00", "its metamer", "ΔL* camera"].into_iter().zip(hints);
+    let heads = ["reflectance", "reference", "camera", "ΔE*00", "its metamer", "ΔL*"].into_iter().zip(hints);
     let mut table = Table::new(heads.map(|(head, hint)| Column {
         hint: hint.to_owned(),
         decimals: Some(2),

@@ -369,7 +369,7 @@ fn names_of_the_worst_patches_stand_apart_at_any_width() {
 fn a_report_card_is_made_beside_the_window() {
     let (executor, mut window) = driven_with(Document::colorimetry(), [1280.0, 800.0], egui::Theme::Dark);
     let made = || executor.results().counts().get("camera metrics").map_or(0, |count| count.misses);
-    window.state_mut().view.saved.metrics.card = Some(camera("Kodak DCS200"));
+    window.state_mut().view.selected = Some(PlotItem::Sensor(camera("Kodak DCS200")));
     window.state_mut().push(Command::Maximize(PaneKind::REPORT_CARD));
     window.run_steps(3);
     let page = "Report card: Kodak DCS200: patches";
@@ -466,7 +466,7 @@ fn layouts_from_before_the_workspace_open_with_it() {
 fn metamers_are_found_marked_and_put_on_the_mesh() {
     let (executor, mut window) = open();
     assert!(!executor.run_one(CatalogMetamersQuery::NAME), "nobody looks");
-    window.state_mut().view.saved.metrics.card = Some(camera("Kodak DCS200"));
+    window.state_mut().view.selected = Some(PlotItem::Sensor(camera("Kodak DCS200")));
     window.state_mut().push(Command::Maximize(PaneKind::METAMERS));
     window.run_steps(3);
     assert!(window.query_by_label("Searching…").is_some());

@@ -87,7 +87,12 @@ impl<'a> Body<'a> {
     fn is_selected(&self, row: usize) -> bool {
         match (self.of.item, &self.selected) {
             (Some(item), Some(selected)) => {
-                item(row).is_some_and(|item| selected.relation_to(&item, &self.reference) == Relation::Same)
+                // A selected camera is that of all rows of its patches.
+                let is_it = |item: PlotItem| {
+                    item.patch().is_some() == selected.patch().is_some()
+                        && selected.relation_to(&item, &self.reference) == Relation::Same
+                };
+                item(row).is_some_and(is_it)
             }
             (Some(_), None) => false,
             (None, _) => self.cursor == Some(row) && !self.of.compact,
@@ -320,6 +325,9 @@ impl Body<'_> {
             let arrow =
                 if layout.form == Form::Text { arrow.translate(Vec2::new(place.width() - 8.0, 0.0)) } else { arrow };
             self.arrow(ui, arrow.translate(Vec2::new(0.0, 0.5 * UNIT)), sorting.descending);
+            if layout.form != Form::Text {
+                place.min.x = arrow.right() + 0.5 * UNIT;
+            }
         }
         if !self.of.compact {
             place.min.y += 0.5 * UNIT;

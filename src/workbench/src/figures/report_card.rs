@@ -131,7 +131,7 @@ fn title(source: &[String], name: &[String], area: Rect) -> Panel {
 /// Sensitivities over the wavelength, scaled to the largest.
 fn sensitivities(scene: &Scene<'_>, id: &SensorId, area: Rect) -> Panel {
     let x = Axis::new("wavelength (nm)", [FIRST_NM, LAST_NM]);
-    let note = "relative sensitivity".to_owned();
+    let note = "sensitivity".to_owned();
     let mut panel = Panel { note, ..Panel::new("sensitivities", area, x, Axis::new("", [0.0, 1.1])) };
     let Ok(sensor) = scene.sensor(id.kind, &id.name) else { return panel };
     let peak = sensor.curves().iter().flat_map(SpectralDistribution::values).copied().fold(f64::MIN_POSITIVE, f64::max);
