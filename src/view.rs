@@ -476,8 +476,8 @@ choices! {
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
     pub enum Confuses {
         #[default]
-        Camera = "camera", "Camera confuses", "Equal to the camera, different to the reference";
-        Reference = "reference", "Reference confuses", "Equal to the reference, different to the camera";
+        Camera = "camera", "By the camera", "Equal to the camera, different to the reference";
+        Reference = "reference", "By the reference", "Equal to the reference, different to the camera";
     }
 }
 

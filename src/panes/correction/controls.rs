@@ -118,8 +118,11 @@ pub(super) fn training(ui: &mut Ui, context: &mut PaneContext<'_>) {
                 None => "Weight in the fit of the training reflectances of this class; others have 1".to_owned(),
             };
             let field = DragValue::new(&mut weight).range(0.0..=ClassWeights::MOST).speed(0.05).max_decimals(2);
-            let label = ui.label(class.label());
-            if ui.add(field).labelled_by(label.id).on_hover_text(hint).changed() {
+            let field = ui.horizontal(|ui| {
+                let label = ui.label(class.label());
+                ui.add(field).labelled_by(label.id)
+            });
+            if field.inner.on_hover_text(hint).changed() {
                 let mut weights = choice.weights;
                 weights[class as usize] = weight;
                 set(context, CorrectionChoice { weights, ..choice.clone() });

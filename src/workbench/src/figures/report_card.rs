@@ -136,12 +136,16 @@ fn sensitivities(scene: &Scene<'_>, id: &SensorId, area: Rect) -> Panel {
     let Ok(sensor) = scene.sensor(id.kind, &id.name) else { return panel };
     let peak = sensor.curves().iter().flat_map(SpectralDistribution::values).copied().fold(f64::MIN_POSITIVE, f64::max);
     let inks = [[0xC0, 0x30, 0x30], [0x30, 0x90, 0x30], [0x30, 0x50, 0xC0]].map(Ink::rgb);
+    let mut names = Vec::new();
     for ((curve, ink), name) in sensor.curves().iter().zip(inks).zip(sensor.primaries().channels()) {
         let samples = curve.wavelengths_nm().iter().zip(curve.values());
         let points = samples.map(|(nm, value)| [*nm, value / peak]).filter(|p| (FIRST_NM..=LAST_NM).contains(&p[0]));
-        panel.marks.push(line(name, points.collect(), ink, 1.5));
+        let points: Vec<[f64; 2]> = points.collect();
+        let top = points.iter().copied().max_by(|a, b| a[1].total_cmp(&b[1])).unwrap_or_default();
+        names.push(Label::new(name[..1].to_uppercase(), ink, Place::around(top, [0.0, -1.0], 3.0)));
+        panel.marks.push(line(name, points, ink, 1.5));
     }
-    panel.with_headroom(2.0)
+    named(&panel, &names)
 }
 
 /// Distance from the reference's Planckian locus at equal temperature, over reciprocal temperature.
