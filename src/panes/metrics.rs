@@ -3,7 +3,7 @@
 use chromascope_core::query::CameraMetric;
 use chromascope_core::query::metrics::{Better, MetricValue};
 use chromascope_figure::{Cell, Column, Table};
-use egui::{Rect, Ui, Vec2};
+use egui::{Rect, Ui};
 
 use super::context::{Pane, PaneContext};
 use crate::action::{Action, CompareAction};
@@ -11,8 +11,8 @@ use crate::document::SetKind;
 use crate::figures::metrics::{self, TABLE};
 use crate::format::fixed;
 use crate::jobs::PATIENCE;
+use crate::panes::widgets;
 use crate::panes::widgets::table::{DataTable, Drawn};
-use crate::panes::widgets::{self, lines};
 use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::metrics::{Ranked, RankedCameras, Ranking};
 use crate::scene::uncertainty::rank_cell;
@@ -66,13 +66,11 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
             let u = uncertainty.coverage * uncertainty.standard;
             painter.hline(x(value - u)..=x(value + u), place.center().y, egui::Stroke::new(1.5, color));
         }
-        let at = Rect::from_center_size(egui::pos2(x(value), place.center().y), Vec2::splat(2.0 * DOT));
-        match source {
+        let at = egui::pos2(x(value), place.center().y);
+        painter.circle_filled(at, DOT, color);
+        if source.is_some() {
             // Told from the others without its color, too.
-            Some(source) => lines::marker(painter, at, source, &theme),
-            None => {
-                painter.circle_filled(at.center(), DOT - 1.0, color);
-            }
+            painter.circle_stroke(at, DOT + 2.5, egui::Stroke::new(1.0, color));
         }
     };
     let item = |row: usize| Some(PlotItem::Sensor(ranked.cameras[row].id.clone()));

@@ -267,7 +267,7 @@ fn two_cameras_stand_head_to_head() {
     let values = pair.map(|id| scene.camera_figures(id.kind, &id.name).unwrap().of(metric).unwrap());
     let [(a, u), (b, v)] = values.map(|value| (value.value.unwrap(), value.uncertainty.unwrap().standard));
     assert!(a < b, "{a} {b}");
-    for words in [format!("A {}", written(a, u)), format!("B {}", written(b, v)), written(a - b, u.hypot(v))] {
+    for words in [format!("A {a:.2}"), format!("B {b:.2}"), written(a - b, u.hypot(v))] {
         assert!(row.contains(&words), "{words} is not in {row}");
     }
     let better =

@@ -74,12 +74,6 @@ pub fn key(painter: &Painter, rect: Rect, source: &ComparedSensor, theme: &Theme
     }
 }
 
-/// Draws a source's marker.
-pub fn marker(painter: &Painter, rect: Rect, source: &ComparedSensor, theme: &Theme) {
-    let (name, marker, fill) = (String::new(), Some(source.marker), Some(Ink::new(source.role)));
-    paint::key(painter, rect, &LegendEntry { name, stroke: None, marker, fill }, theme);
-}
-
 pub fn key_and_label(ui: &mut Ui, source: &ComparedSensor, theme: &Theme) -> Response {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW), Sense::hover());
     key(ui.painter(), Rect::from_min_size(rect.min, Vec2::new(KEY, ROW)), source, theme);

@@ -333,7 +333,8 @@ impl Body<'_> {
             place.min.y += 0.5 * UNIT;
             ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, Stroke::new(1.0, self.theme.line));
         }
-        for (line, text) in [&column.name, &column.unit].into_iter().enumerate() {
+        let has_room = place.width() > 5.0 * UNIT;
+        for (line, text) in [&column.name, &column.unit].into_iter().enumerate().filter(|_| has_room) {
             let at = egui::pos2(place.left(), place.top() + line as f32 * HEAD_LINE);
             let row = Rect::from_min_size(at, Vec2::new(place.width(), HEAD_LINE));
             let fits = lines::width(ui, text, TextStyle::Small) <= row.width();
