@@ -11,6 +11,8 @@ use egui::{
 use crate::palette::{Colors, FONT, FONT_FAMILY, MONO_FAMILY, MONO_FONT};
 pub use crate::palette::{LINE_TAIL, SourceInks, Surround};
 
+/// Seconds that the pointer rests before a tooltip.
+pub const TOOLTIP_DELAY: f32 = 0.3;
 pub const UNIT: f32 = 4.0;
 /// Height of a row, smallest side of what can be clicked.
 pub const ROW: f32 = 24.0;
@@ -117,7 +119,7 @@ impl Theme {
         spacing.combo_height = 12.0 * ROW;
         spacing.tooltip_width = 360.0;
         style.interaction.selectable_labels = false;
-        style.interaction.tooltip_delay = 0.3;
+        style.interaction.tooltip_delay = TOOLTIP_DELAY;
         style.url_in_tooltip = true;
         style
     }

@@ -13,6 +13,7 @@ use std::mem::take;
 use std::path::PathBuf;
 
 use chromascope_core::metamers::Confusion;
+use chromascope_core::query::Shared;
 use chromascope_figure::Tag;
 use chromascope_text::{Look, Pick, Setting, Settings, choices, place, settings, words_of};
 use correction::CorrectionView;
@@ -20,13 +21,16 @@ use import::{ImportItem, ImportMemory, ImportView};
 use recorded::RecordedView;
 use serde::{Deserialize, Serialize};
 
+use crate::document::imported::ImportedSet;
 use crate::document::{Compared, SetKind};
 use crate::export::Paper;
 use crate::figures::chromaticity::shown::DiagramView;
 use crate::figures::look::FigureLook;
 use crate::figures::metrics::TABLE;
+use crate::figures::report_card;
 use crate::paint::Emphasis;
 use crate::plot_item::{PickIndex, PlotItem, Relation, SensorId};
+use crate::scene::Scene;
 use crate::theme::Surround;
 use crate::workspaces::{Layout, PaneKind, Workspace};
 
@@ -278,6 +282,21 @@ pub enum Weight {
 }
 
 impl View {
+    /// The camera of Rank's page: the selected one, else the first that is compared.
+    pub fn camera(&self, scene: &Scene<'_>) -> Option<SensorId> {
+        report_card::camera(scene, self.selected.as_ref())
+    }
+
+    /// Shows a file, and selects the set that is made of it, so that this can be used.
+    pub fn select_file(&mut self, item: ImportItem, own: &[Shared<ImportedSet>]) {
+        if let ImportItem::Set(name) = &item
+            && let Some(set) = own.iter().find(|set| set.name == *name)
+        {
+            self.selected = Some(PlotItem::of_set(SetKind::of_own(set), name));
+        }
+        self.import.select(item);
+    }
+
     /// Adds offers to the message. `takes_keyboard` has one Enter take the first.
     pub fn offer(&mut self, offers: Vec<Offer>, takes_keyboard: bool) {
         self.status.takes_keyboard = takes_keyboard && !offers.is_empty();
@@ -305,7 +324,6 @@ impl View {
             cameras: saved.metrics.cameras,
             sorting: saved.looks.get(TABLE).and_then(|look| look.sorting.clone()),
             pair: saved.metrics.pair.clone(),
-            card: saved.metrics.card.clone(),
             residuals_of: self.recorded.camera.clone(),
             shows: self.shows,
             correction: self.correction.shown.clone(),
@@ -451,9 +469,6 @@ pub struct MetricsLook {
     /// The two cameras of Head to head; `None` for the selected one and the first compared one.
     #[serde(skip)]
     pub pair: [Option<SensorId>; 2],
-    /// The camera of the report card; none for the selected one.
-    #[serde(skip)]
-    pub card: Option<SensorId>,
 }
 
 choices! {
@@ -461,8 +476,8 @@ choices! {
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
     pub enum Confuses {
         #[default]
-        Camera = "camera", "Camera confuses", "Equal to the camera, different to the reference";
-        Reference = "reference", "Reference confuses", "Equal to the reference, different to the camera";
+        Camera = "camera", "By the camera", "Equal to the camera, different to the reference";
+        Reference = "reference", "By the reference", "Equal to the reference, different to the camera";
     }
 }
 

@@ -39,6 +39,13 @@ impl ChromascopeApp {
             profiler: &mut self.profiler,
             commands: &mut self.commands,
         };
+        // A tooltip that is open where a window opens would stay, and above the window.
+        let ctx = ui.ctx().clone();
+        let is_covered = ctx.memory(egui::Memory::top_modal_layer).is_some();
+        let delay_tooltips = |seconds| ctx.global_style_mut(|style| style.interaction.tooltip_delay = seconds);
+        if is_covered {
+            delay_tooltips(f32::MAX);
+        }
         let bar = |ui: &mut Ui, id, height, top| bar(ui, &theme, (id, height), top);
         let menu = bar(ui, "menu", 30.0, true);
         let conditions = bar(ui, "conditions", panes::scene_bar::HEIGHT, true);
@@ -116,6 +123,9 @@ impl ChromascopeApp {
         }
         enter_by_arrows(ui.ctx(), context.view);
         panes::status_bar::show(ui, status, &self.arrangement, &mut context);
+        if is_covered {
+            delay_tooltips(theme::TOOLTIP_DELAY);
+        }
         panes::help::show(ui, &self.history, &mut context);
         path_prompt::show(ui, &theme, &mut self.files);
         context.render_service.end_frame();

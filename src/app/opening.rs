@@ -226,14 +226,18 @@ impl ChromascopeApp {
         if let Some(first) = doubtful.first().or(items.first())
             && !trying
         {
-            self.view.import.select(first.clone());
+            if self.view.saved.workspace == Workspace::Data {
+                self.view.select_file(first.clone(), &self.history.document().own);
+            } else {
+                self.view.import.select(first.clone());
+            }
         }
         self.view.status.change = doubtful.first().map(|first| (first.clone(), None));
         self.view.import.unseen.extend(doubtful);
         // What was pasted has no name yet: it is looked at first.
         let pasted = brought.iter().position(|set| set.file == CLIPBOARD);
         if let Some(item) = pasted.and_then(|index| items.get(index)) {
-            self.view.import.select(item.clone());
+            self.view.select_file(item.clone(), &self.history.document().own);
             self.show_workspace(Workspace::Data);
         }
     }
@@ -303,7 +307,7 @@ impl ChromascopeApp {
         if self.view.status.change.as_ref().is_some_and(|(led, _)| *led == item) {
             self.view.status = Status::default();
         }
-        self.view.import.select(item);
+        self.view.select_file(item, &self.history.document().own);
         self.view.import.line = line;
         self.show_workspace(Workspace::Data);
         self.view.show(PaneKind::INTERPRETATION);

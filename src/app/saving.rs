@@ -64,11 +64,10 @@ impl ChromascopeApp {
     /// Makes a file of the camera's color correction in the background and asks where to save it. Needs no visible pane.
     pub(super) fn save_correction(&mut self, form: CorrectionForm) {
         let scene = Scene { document: self.history.document(), catalog: &self.catalog, results: &self.results };
-        let view = &self.view.correction;
-        let Some(camera) = view.camera(&scene) else {
+        let Some(SensorId { name: camera, .. }) = self.view.camera(&scene) else {
             return self.view.fail("No camera is compared: choose one on the page Matrix of Rank.");
         };
-        let query = CorrectionFileQuery::new(&scene, view.request(&scene, &camera));
+        let query = CorrectionFileQuery::new(&scene, self.view.correction.request(&scene, &camera));
         self.files.make_to_save(move || {
             let file = query.and_then(|query| (*Results::default().ask(&query)).clone()).map_err(|e| e.to_string())?;
             let bytes = file.written(form).map_err(|error| error.to_string())?;

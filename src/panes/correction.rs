@@ -29,7 +29,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         let Some(camera) = controls::camera(ui, context) else { return };
         controls::files(ui, context);
         let answer = refreshed(&camera, context);
-        let ratio = answer.as_ref().ok().and_then(|file| file.as_ref()).filter(|file| file.of.camera == camera);
+        let ratio = answer.as_ref().ok().and_then(|file| file.as_ref());
         controls::stated(ui, &camera, ratio.map(|file| file.ratio), context);
         controls::method(ui, context);
         controls::training(ui, context);
@@ -45,7 +45,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     });
 }
 
-/// The correction of a camera; the last one while it is made.
+/// The correction of a camera; that under other conditions while it is made.
 fn refreshed(camera: &str, context: &mut PaneContext<'_>) -> Result<Option<Arc<CorrectionFile>>, String> {
     let view = &mut context.view.correction;
     let query = CorrectionFileQuery::new(&context.scene, view.request(&context.scene, camera));
@@ -54,7 +54,7 @@ fn refreshed(camera: &str, context: &mut PaneContext<'_>) -> Result<Option<Arc<C
         made.map(|made| (*made).clone()).transpose().map_err(|error| error.to_string())
     });
     match made {
-        Ok(made) => view.shown = made.or(view.shown.take()),
+        Ok(made) => view.shown = made.or(view.shown.take().filter(|file| file.of.camera == camera)),
         Err(error) => {
             view.shown = None;
             return Err(error);

@@ -43,7 +43,14 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let top = child.min_rect().bottom() + UNIT;
     let known: Vec<_> = metrics::uncertainties(&ranked, [a, b]).collect();
     let body = widgets::lines::foot(ui, body, &context.scene.metrics_words_with(CameraMetric::ALL, known), context);
-    let table = metrics::head_to_head(&ranked, [a, b]);
+    let mut table = metrics::head_to_head(&ranked, [a, b]);
+    // That of the difference decides; the cameras' own would need more room than there is, and stand under the pointer.
+    for cell in table.rows.iter_mut().flat_map(|row| &mut row[3..]) {
+        *cell = std::mem::take(cell).with(|note| {
+            note.hint = note.behind().unwrap_or_default();
+            note.uncertainty = None;
+        });
+    }
     let shown = DataTable::new(PaneKind::HEAD_TO_HEAD, "Head to head", &table);
     // The table reaches to the pane's edge: a narrow pane shows the first three columns whole.
     let place = Rect::from_min_max(

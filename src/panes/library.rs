@@ -71,7 +71,10 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let scene = context.scene;
     let mut rows = std::mem::take(context.states.of::<Rows>());
     rows.refresh(&scene);
-    let chosen = rows.entries.iter().find(|entry| context.view.selected.as_ref() == Some(&item(entry))).cloned();
+    let of_file =
+        |entry: &&Entry| entry.is_own() && context.view.import.selected == Some(ImportItem::Set(entry.name.clone()));
+    let selected = rows.entries.iter().find(|entry| context.view.selected.as_ref() == Some(&item(entry)));
+    let chosen = selected.or_else(|| rows.entries.iter().find(of_file)).cloned();
     let body = widgets::body(ui, &PANE, rect, context, |ui, context| {
         uses(ui, chosen.as_ref(), context);
     });

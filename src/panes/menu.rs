@@ -154,8 +154,8 @@ fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
         item(ui, &words, Command::Export(pane, form), context);
     }
     item(ui, &format!("Export numbers of {}…", context.title(pane)), Command::Export(pane, FigureForm::Csv), context);
-    if let Some(camera) = context.view.correction.camera(&context.scene) {
-        ui.menu_button(format!("Color correction of {camera}"), |ui| {
+    if let Some(camera) = context.view.camera(&context.scene) {
+        ui.menu_button(format!("Color correction of {}", camera.name), |ui| {
             for form in CorrectionForm::ALL {
                 item(ui, form.words().0, Command::SaveCorrection(form), context);
             }

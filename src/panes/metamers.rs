@@ -7,7 +7,6 @@ use super::context::{Pane, PaneContext};
 use crate::action::{Action, RenderAction, SceneAction};
 use crate::document::render::RenderSettings;
 use crate::document::{SetKind, Subset};
-use crate::figures::report_card;
 use crate::panes::widgets;
 use crate::panes::widgets::table::DataTable;
 use crate::plot_item::{PlotItem, SensorId};
@@ -24,7 +23,7 @@ pub struct ClickedPair(pub Option<usize>);
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::body(ui, &PANE, rect, context, switches);
     let mut child = widgets::clipped(ui, "metamers", body);
-    let Some(camera) = report_card::camera(&context.scene, &context.view.look(PANE.kind)) else {
+    let Some(camera) = context.view.camera(&context.scene) else {
         child.weak("Add a camera.");
         return;
     };
@@ -77,7 +76,7 @@ fn pairs(ui: &mut Ui, place: Rect, camera: &SensorId, found: &FoundMetamers, con
         "",
         "Largest difference of a balanced camera channel, each through the CIE lightness function (0 to 100).",
     ];
-    let heads = ["reflectance", "reference", "camera", "ΔE*00", "its metamer", "ΔL* camera"].into_iter().zip(hints);
+    let heads = ["reflectance", "reference", "camera", "ΔE*00", "its metamer", "ΔL*"].into_iter().zip(hints);
     let mut table = Table::new(heads.map(|(head, hint)| Column {
         hint: hint.to_owned(),
         decimals: Some(2),

@@ -66,7 +66,12 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
             let u = uncertainty.coverage * uncertainty.standard;
             painter.hline(x(value - u)..=x(value + u), place.center().y, egui::Stroke::new(1.5, color));
         }
-        painter.circle_filled(egui::pos2(x(value), place.center().y), DOT, color);
+        let at = egui::pos2(x(value), place.center().y);
+        painter.circle_filled(at, DOT, color);
+        if source.is_some() {
+            // Told from the others without its color, too.
+            painter.circle_stroke(at, DOT + 2.5, egui::Stroke::new(1.0, color));
+        }
     };
     let item = |row: usize| Some(PlotItem::Sensor(ranked.cameras[row].id.clone()));
     let shown = DataTable::new(PaneKind::METRICS, TABLE, &table).with_items(&item);

@@ -4,12 +4,10 @@ use chromascope_figure::{Figure, InkRole, Shape, Stroke};
 use egui::{Id, Rect, ScrollArea, Ui, Vec2};
 
 use super::context::{Pane, PaneContext};
-use crate::document::SetKind;
 use crate::figures::report_card;
 use crate::format::sentence;
 use crate::paint::{self, PlotOptions};
 use crate::panes::widgets;
-use crate::panes::widgets::pick_list::{self, Line};
 use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::metrics::{CameraFigures, unloaded};
 use crate::theme::UNIT;
@@ -26,10 +24,13 @@ pub const PANE: Pane = Pane::new(PaneKind::REPORT_CARD, "Report card", show)
     .table();
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
-    let body = widgets::body(ui, &PANE, rect, context, choose);
+    let body = widgets::body(ui, &PANE, rect, context, |ui, context| {
+        let width = (ui.available_width() - UNIT).max(60.0);
+        widgets::sets::camera(ui, width, context);
+    });
     // Less what the scroll bar keeps, and half a number at the end of an axis.
     let width = f64::from((body.width() - 6.0 * UNIT).max(NARROWEST));
-    let Some(camera) = report_card::camera(&context.scene, &context.view.look(PANE.kind)) else {
+    let Some(camera) = context.view.camera(&context.scene) else {
         widgets::say(ui, body, "Add a camera.", context.theme.weak);
         return;
     };
@@ -83,23 +84,5 @@ fn draw(ui: &mut Ui, page: &Figure, follow: bool, context: &PaneContext<'_>) {
         if follow && panel.name == BARS {
             shown.response.scroll_to_me(None);
         }
-    }
-}
-
-fn choose(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let now = report_card::camera(&context.scene, &context.view.look(PANE.kind));
-    let words = now.as_ref().map_or("", |id| id.name.as_str());
-    let width = (ui.available_width() - UNIT).max(60.0);
-    let card = context.view.saved.metrics.card.as_ref();
-    let mut names = Vec::new();
-    let hint = "The camera of the page";
-    let chosen = pick_list::drop_down(ui, ("Camera of the card", hint), words, width, &context.theme, || {
-        names.extend(context.scene.entries(SetKind::Camera).map(|entry| entry.name));
-        let cameras = names.iter().map(|name| Line::new(name, card.is_some_and(|card| card.name == *name)));
-        std::iter::once(Line::new("The selected camera", card.is_none())).chain(cameras).collect()
-    });
-    if let Some(index) = chosen {
-        let name = index.checked_sub(1).map(|index| names.swap_remove(index));
-        context.view.saved.metrics.card = name.map(|name| SensorId { kind: SetKind::Camera, name });
     }
 }

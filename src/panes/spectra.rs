@@ -33,7 +33,8 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     if is_small {
         context.view.saved.spectra_layout = SpectraLayout::Overlay;
     }
-    let panels = if context.view.saved.spectra_layout == SpectraLayout::Each { each } else { 3 };
+    // In the lowest the sensitivities stand alone.
+    let panels = if context.view.saved.spectra_layout == SpectraLayout::Each { each } else { 1 };
     let height = body.height().max(panels as f32 * LEAST);
     let mut child = widgets::clipped(ui, "spectra", body);
     ScrollArea::vertical().id_salt("spectra scroll").auto_shrink(false).show(&mut child, |ui| {

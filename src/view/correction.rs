@@ -5,14 +5,11 @@ use std::sync::Arc;
 
 use chromascope_core::correction::neutral::{Neutral, NeutralError};
 
-use crate::document::SetKind;
 use crate::export::profile::{CorrectionFile, CorrectionRequest};
 use crate::scene::Scene;
 
 #[derive(Debug, Default)]
 pub struct CorrectionView {
-    /// The camera chosen there; the first that is compared otherwise.
-    pub camera: Option<String>,
     /// Camera models as typed, by camera.
     pub models: BTreeMap<String, String>,
     /// Neutrals as typed, by camera and light: one of another light would be wrong.
@@ -21,13 +18,6 @@ pub struct CorrectionView {
 }
 
 impl CorrectionView {
-    /// The camera that is corrected: the one chosen, else the first that is compared.
-    pub fn camera(&self, scene: &Scene<'_>) -> Option<String> {
-        let chosen = self.camera.clone().filter(|name| scene.entry(SetKind::Camera, name).is_ok());
-        let compared = || scene.sources().into_iter().find(|source| source.kind == SetKind::Camera);
-        chosen.or_else(|| Some(compared()?.name))
-    }
-
     /// The neutral typed for a camera under the light on the scene; none for an empty field.
     pub fn neutral(&self, scene: &Scene<'_>, camera: &str) -> Result<Option<Neutral>, NeutralError> {
         let typed = self.neutrals.get(&(camera.to_owned(), scene.light_name()));

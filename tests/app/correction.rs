@@ -9,9 +9,10 @@ use chromascope::action::{Action, SceneAction};
 use chromascope::app::ChromascopeApp;
 use chromascope::command::Command;
 use chromascope::document::correction::CorrectionChoice;
-use chromascope::document::{Document, FIT_TARGET, TRAINING, TransformChoice};
+use chromascope::document::{Document, FIT_TARGET, SetKind, TRAINING, TransformChoice};
 use chromascope::files::{Answer, Dialogs, Files, Question};
 use chromascope::jobs::Executor;
+use chromascope::plot_item::PlotItem;
 use chromascope::view::SavedView;
 use chromascope::workspaces::PaneKind;
 use chromascope_core::correction::CorrectionMethod;
@@ -124,7 +125,7 @@ fn each_kind_of_file_is_saved_from_the_pane() {
 /// Opens the pane with a camera that is not compared.
 fn pane_of(camera: &str, size: [f32; 2]) -> Harness<'static, ChromascopeApp> {
     let mut harness = open_with(Document::colorimetry(), size, egui::Theme::Dark);
-    harness.state_mut().view.correction.camera = Some(camera.to_owned());
+    harness.state_mut().view.selected = Some(PlotItem::of_set(SetKind::Camera, camera));
     harness.state_mut().push(Command::Maximize(PANE));
     harness
 }
@@ -147,6 +148,24 @@ fn a_camera_of_the_library_is_corrected_without_being_compared() {
     harness.run_steps(2);
     harness.key_press(egui::Key::Enter);
     shows(&mut harness, "UniqueCameraModel: Canon EOS 400D DIGITAL");
+}
+
+#[test]
+fn every_tab_and_the_files_are_of_the_camera_selected_in_rank() {
+    let mut harness = open_with(Document::colorimetry(), [1280.0, 800.0], egui::Theme::Dark);
+    harness.state_mut().view.show(PANE);
+    shows(&mut harness, "UniqueCameraModel: Canon EOS 5D Mark II");
+    harness.state_mut().view.selected = Some(PlotItem::of_set(SetKind::Camera, "Kodak DCS200"));
+    harness.step();
+    assert!(harness.query_all_by_label_contains("UniqueCameraModel: Canon").next().is_none(), "of another camera");
+    shows(&mut harness, "UniqueCameraModel: Kodak DCS200");
+    harness.get_by_label("File").click();
+    shows(&mut harness, "Color correction of Kodak DCS200");
+    harness.key_press(egui::Key::Escape);
+    for pane in [PaneKind::REPORT_CARD, PANE] {
+        harness.state_mut().view.show(pane);
+        shows(&mut harness, "Camera: Kodak DCS200");
+    }
 }
 
 #[test]

@@ -267,7 +267,7 @@ fn two_cameras_stand_head_to_head() {
     let values = pair.map(|id| scene.camera_figures(id.kind, &id.name).unwrap().of(metric).unwrap());
     let [(a, u), (b, v)] = values.map(|value| (value.value.unwrap(), value.uncertainty.unwrap().standard));
     assert!(a < b, "{a} {b}");
-    for words in [format!("A {}", written(a, u)), format!("B {}", written(b, v)), written(a - b, u.hypot(v))] {
+    for words in [format!("A {a:.2}"), format!("B {b:.2}"), written(a - b, u.hypot(v))] {
         assert!(row.contains(&words), "{words} is not in {row}");
     }
     let better =
@@ -302,7 +302,7 @@ fn a_report_card_is_a_figure_like_others() {
     let (catalog, results, document) = (Catalog::built_in(), Results::default(), Document::colorimetry());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
     let mut view = View::default();
-    view.saved.metrics.card = Some(camera("Kodak DCS200"));
+    view.selected = Some(PlotItem::Sensor(camera("Kodak DCS200")));
     let figure = panes::figure(PaneKind::REPORT_CARD, &scene, &view.look(PaneKind::REPORT_CARD), FigureRoom::default())
         .expect("a page");
     assert_eq!(figure.title, "Report card: Kodak DCS200");
@@ -319,7 +319,6 @@ fn a_report_card_is_a_figure_like_others() {
     assert!(svg.contains("wavelength (nm)"), "the axis is named");
     assert!(svg.contains("ΔE*00 mean") && export::png(&svg, 1.0).is_ok());
     view.selected = Some(PlotItem::Sensor(camera("Canon EOS 5D")));
-    view.saved.metrics.card = None;
     let figure = panes::figure(PaneKind::REPORT_CARD, &scene, &view.look(PaneKind::REPORT_CARD), FigureRoom::default())
         .expect("a page");
     assert_eq!(figure.title, "Report card: Canon EOS 5D", "follows the selection");
@@ -370,7 +369,7 @@ fn names_of_the_worst_patches_stand_apart_at_any_width() {
 fn a_report_card_is_made_beside_the_window() {
     let (executor, mut window) = driven_with(Document::colorimetry(), [1280.0, 800.0], egui::Theme::Dark);
     let made = || executor.results().counts().get("camera metrics").map_or(0, |count| count.misses);
-    window.state_mut().view.saved.metrics.card = Some(camera("Kodak DCS200"));
+    window.state_mut().view.selected = Some(PlotItem::Sensor(camera("Kodak DCS200")));
     window.state_mut().push(Command::Maximize(PaneKind::REPORT_CARD));
     window.run_steps(3);
     let page = "Report card: Kodak DCS200: patches";
@@ -467,7 +466,7 @@ fn layouts_from_before_the_workspace_open_with_it() {
 fn metamers_are_found_marked_and_put_on_the_mesh() {
     let (executor, mut window) = open();
     assert!(!executor.run_one(CatalogMetamersQuery::NAME), "nobody looks");
-    window.state_mut().view.saved.metrics.card = Some(camera("Kodak DCS200"));
+    window.state_mut().view.selected = Some(PlotItem::Sensor(camera("Kodak DCS200")));
     window.state_mut().push(Command::Maximize(PaneKind::METAMERS));
     window.run_steps(3);
     assert!(window.query_by_label("Searching…").is_some());

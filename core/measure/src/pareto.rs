@@ -73,7 +73,7 @@ pub fn panel(name: &str, [error_label, time_label]: [&str; 2], note: String, pla
     panel
 }
 
-/// Names of points, in this order, each written once. Where points crowd a number stands for the name, which is then in a list;
+/// Names of points, in this order, each written once. Where there is no room beside a point a number stands for the name, which is then in a list;
 /// one without room for either is omitted, and shown under the pointer.
 fn names(panel: &Panel, places: &[&Place]) -> Vec<Mark> {
     let mut labels = Labels::new(panel);
@@ -81,7 +81,8 @@ fn names(panel: &Panel, places: &[&Place]) -> Vec<Mark> {
     for place in places {
         if !named.contains(&place.name.as_str()) {
             named.push(&place.name);
-            if !labels.place(&label(place, &place.name)) {
+            // A leader out of a crowd does not tell which of its points is named.
+            if !labels.place(&Label { starts: Vec::new(), ..label(place, &place.name) }) {
                 crowded.push(place);
             }
         }

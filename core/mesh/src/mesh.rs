@@ -164,6 +164,11 @@ impl Mesh {
         Self { framed: (self.framed.0, height), ..self }
     }
 
+    /// True if a picture of the whole leaves the lowest part out.
+    pub fn is_cropped(&self) -> bool {
+        self.framed.1 > f32::NEG_INFINITY
+    }
+
     /// The vertices that a picture of the whole shows.
     pub fn framed(&self) -> impl ParallelIterator<Item = &Vec3> {
         let (count, least) = self.framed;

@@ -15,8 +15,9 @@ pub use differences::{PatchDifferences, Statistic, WORST};
 pub use evidence::{LocusDeviationQuery, MetamerismIndexQuery, ReferenceLocusQuery, SpaceQualityQuery};
 pub use figures::CameraMetrics;
 pub use stimulus::LightUncertainty;
-pub use table::{Better, CameraMetric, Difference, MetricGroup, MetricSet, rank_ranges};
+pub use table::{Better, CameraMetric, Difference, MetricGroup, rank_ranges};
 pub use uncertainty::{MetricUncertaintiesQuery, OwnUncertainties};
 pub use value::{
-    CameraMetricsQuery, Contributions, IndexConditions, MetricUncertainty, MetricValue, UncertaintySource, WhyNot,
+    CameraMetricsQuery, Contributions, IndexConditions, MetricSet, MetricUncertainty, MetricValue, UncertaintySource,
+    WhyNot,
 };

@@ -28,10 +28,13 @@ use chromascope_render::render::{
 use chromascope_render::scene::roughness::{VertexRoughness, vertex_roughness};
 use chromascope_render::scene::{Lighting, Viewpoint};
 use chromascope_text::choices;
-use picture::LEAST_FACING;
 use std::sync::Arc;
 
 pub use sky::{BounceQuery, GroundViewQuery, SkyImageQuery, SkyReflectanceQuery, SkyVisibilityQuery};
+
+/// Least share of the brightness of an even (Lambertian) scatterer that a material facing the light is exposed for. Steeper
+/// surfaces send less straight back and more to grazing views: exposed for that, they would be white there.
+pub const LEAST_FACING: f64 = 0.2;
 
 /// A mesh.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]

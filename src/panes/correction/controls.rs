@@ -6,45 +6,24 @@ use chromascope_core::correction::classes::{ClassWeights, ColorClass};
 use egui::{DragValue, Label, Response, RichText, TextEdit, Ui};
 
 use crate::action::{Action, SceneAction};
-use crate::catalog::Entry;
 use crate::command::Command;
 use crate::document::SetKind;
 use crate::document::correction::CorrectionChoice;
 use crate::export::profile::{CorrectionForm, unique_camera_model};
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::pick_list::{self, Line};
+use crate::panes::widgets::sets;
 
 /// Width of the names before lists, so that these stand below each other.
 const CAPTION: f32 = 78.0;
 
-/// The camera that is corrected, of the whole library; none where none is chosen or compared.
+/// The camera that is corrected; none where none is selected or compared.
 pub(super) fn camera(ui: &mut Ui, context: &mut PaneContext<'_>) -> Option<String> {
-    let now = context.view.correction.camera(&context.scene);
-    let mut names = Vec::new();
-    let hint = "The camera that is corrected, of the whole library";
-    let shown = now.clone().unwrap_or_else(|| "Choose a camera".to_owned());
-    let chosen = list(ui, ("Camera", hint), &shown, context, || {
-        let is_compared = |entry: &Entry| context.scene.document.compared(SetKind::Camera, &entry.name).is_some();
-        let mut entries: Vec<Entry> = context.scene.entries(SetKind::Camera).collect();
-        entries.sort_by_key(|entry| !is_compared(entry));
-        let mut lines = Vec::new();
-        for entry in entries {
-            let group = if is_compared(&entry) { "Compared" } else { "Library" };
-            if lines.iter().all(|line: &Line| !line.is_heading || line.words != group) {
-                lines.push(Line::heading(group));
-                names.push(String::new());
-            }
-            let Entry { name, short, also, .. } = entry;
-            let on = now.as_ref() == Some(&name);
-            lines.push(Line { also: format!("{short} {}", also.unwrap_or_default()), ..Line::new(&name, on) });
-            names.push(name);
-        }
-        lines
+    ui.horizontal(|ui| {
+        caption(ui, "Camera");
+        sets::camera(ui, width(ui), context);
     });
-    if let Some(name) = chosen.map(|index| names.swap_remove(index)) {
-        context.view.correction.camera = Some(name);
-    }
-    now
+    Some(context.view.camera(&context.scene)?.name)
 }
 
 pub(super) fn files(ui: &mut Ui, context: &mut PaneContext<'_>) {
@@ -82,10 +61,13 @@ pub(super) fn stated(ui: &mut Ui, camera: &str, ratio: Option<ChannelRatio>, con
 fn field(ui: &mut Ui, (name, hint): (&str, &str), text: &mut String, empty: &str) {
     ui.horizontal(|ui| {
         let label = caption(ui, name);
-        let width = (ui.available_width() - 8.0).clamp(80.0, 300.0);
-        let field = TextEdit::singleline(text).hint_text(empty).desired_width(width);
+        let field = TextEdit::singleline(text).hint_text(empty).desired_width(width(ui));
         ui.add(field).labelled_by(label.id).on_hover_text(hint);
     });
+}
+
+fn width(ui: &Ui) -> f32 {
+    (ui.available_width() - 8.0).clamp(80.0, 300.0)
 }
 
 /// A name before a control, so wide that controls stand below each other.
@@ -136,8 +118,11 @@ pub(super) fn training(ui: &mut Ui, context: &mut PaneContext<'_>) {
                 None => "Weight in the fit of the training reflectances of this class; others have 1".to_owned(),
             };
             let field = DragValue::new(&mut weight).range(0.0..=ClassWeights::MOST).speed(0.05).max_decimals(2);
-            let label = ui.label(class.label());
-            if ui.add(field).labelled_by(label.id).on_hover_text(hint).changed() {
+            let field = ui.horizontal(|ui| {
+                let label = ui.label(class.label());
+                ui.add(field).labelled_by(label.id)
+            });
+            if field.inner.on_hover_text(hint).changed() {
                 let mut weights = choice.weights;
                 weights[class as usize] = weight;
                 set(context, CorrectionChoice { weights, ..choice.clone() });
@@ -174,8 +159,7 @@ fn list(
 ) -> Option<usize> {
     let row = ui.horizontal(|ui| {
         caption(ui, name);
-        let width = (ui.available_width() - 8.0).clamp(80.0, 300.0);
-        pick_list::drop_down(ui, (name, hint), shown, width, &context.theme, lines)
+        pick_list::drop_down(ui, (name, hint), shown, width(ui), &context.theme, lines)
     });
     row.inner
 }

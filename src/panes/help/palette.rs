@@ -237,7 +237,7 @@ fn saves(context: &PaneContext<'_>) -> Vec<Found> {
         let words = format!("Report: {}{}", words[..1].to_lowercase(), &words[1..]);
         found.push(Found::new("Save", words, Command::Report(on)).also("figures claims ranking export pdf html page"));
     }
-    for form in context.view.correction.camera(&context.scene).map_or(&[][..], |_| &CorrectionForm::ALL) {
+    for form in context.view.camera(&context.scene).map_or(&[][..], |_| &CorrectionForm::ALL) {
         let (words, hint) = form.words();
         let words = format!("Save the color correction as {words}");
         let also = format!("{hint} export matrix camera profile DCP ICC CLF");

@@ -129,7 +129,7 @@ fn id(index: usize) -> Id {
 fn select(ui: &Ui, entries: &[Entry], index: usize, context: &mut PaneContext<'_>) {
     if let Some(entry) = entries.get(index) {
         context.view.import.unseen.remove(&entry.item);
-        context.view.import.select(entry.item.clone());
+        context.view.select_file(entry.item.clone(), &context.scene.document.own);
         ui.ctx().request_repaint();
     }
 }

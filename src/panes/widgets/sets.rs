@@ -9,6 +9,7 @@ use crate::document::{Light, SetKind};
 use crate::export::spectra::{Form, fits};
 use crate::format::sentence;
 use crate::panes::context::PaneContext;
+use crate::panes::widgets::pick_list::{self, Line};
 use crate::plot_item::PlotItem;
 use crate::view::import::ImportItem;
 use crate::workspaces::PaneKind;
@@ -44,6 +45,35 @@ pub fn menu(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
     save_as(ui, entry.kind, &entry.name, context);
     if entry.is_own() {
         context.item(ui, "Remove", "", Action::Imported(ImportedAction::Remove(entry.name.clone())));
+    }
+}
+
+/// The camera of Rank's page, of the whole library; the one chosen is selected.
+pub fn camera(ui: &mut Ui, width: f32, context: &mut PaneContext<'_>) {
+    let now = context.view.camera(&context.scene).map(|id| id.name);
+    let mut names = Vec::new();
+    let hint = "The camera of the page, of the whole library: the one selected";
+    let shown = now.as_deref().unwrap_or("Choose a camera");
+    let chosen = pick_list::drop_down(ui, ("Camera", hint), shown, width, &context.theme, || {
+        let is_compared = |entry: &Entry| context.scene.document.compared(SetKind::Camera, &entry.name).is_some();
+        let mut entries: Vec<Entry> = context.scene.entries(SetKind::Camera).collect();
+        entries.sort_by_key(|entry| !is_compared(entry));
+        let mut lines = Vec::new();
+        for entry in entries {
+            let group = if is_compared(&entry) { "Compared" } else { "Library" };
+            if lines.iter().all(|line: &Line| !line.is_heading || line.words != group) {
+                lines.push(Line::heading(group));
+                names.push(String::new());
+            }
+            let Entry { name, short, also, .. } = entry;
+            let on = now.as_ref() == Some(&name);
+            lines.push(Line { also: format!("{short} {}", also.unwrap_or_default()), ..Line::new(&name, on) });
+            names.push(name);
+        }
+        lines
+    });
+    if let Some(index) = chosen {
+        context.view.selected = Some(PlotItem::of_set(SetKind::Camera, &names.swap_remove(index)));
     }
 }
 

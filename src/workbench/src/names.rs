@@ -1,5 +1,7 @@
 //! Names of cameras, shortened by what distinguishes them.
 
+use crate::format::cut_in_middle;
+
 /// Words that tell a series or an edition, not a model.
 const SERIES: [&str; 3] = ["EOS", "Mark", "Digital"];
 
@@ -23,20 +25,11 @@ pub fn shortest<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
     all.iter().map(|name| shortened(name, &all).pop().unwrap_or_else(|| name.clone())).collect()
 }
 
-/// The longest form of a name that fits, else the shortest cut to what fits.
+/// The longest form of a name that fits, else the shortest with its middle cut.
 pub fn fitted(name: &str, all: &[String], fits: impl Fn(&str) -> bool) -> String {
     let forms: Vec<String> = std::iter::once(name.to_owned()).chain(shortened(name, all)).collect();
-    if let Some(form) = forms.iter().find(|form| fits(form)) {
-        return form.clone();
-    }
-    let mut short = forms.last().cloned().unwrap_or_default();
-    while short.pop().is_some() {
-        let cut = format!("{}…", short.trim_end());
-        if fits(&cut) {
-            return cut;
-        }
-    }
-    String::new()
+    let form = forms.iter().find(|form| fits(form)).unwrap_or(&forms[forms.len() - 1]);
+    cut_in_middle(form, fits).into_owned()
 }
 
 fn formed(name: &str, (brackets, maker, series): (bool, bool, bool)) -> String {
@@ -67,6 +60,9 @@ mod tests {
         let expected = ["5D III", "5D IV", "D70 (2007 figure)", "D70 (UPenn 2011)", "D700"];
         assert_eq!(all.each_ref().map(shortest), expected.map(|short| Some(short.to_owned())));
         assert_eq!(fitted(&all[0], &all, |form| form.len() < 14), "5D III");
-        assert_eq!(fitted(&all[0], &all, |form| form.chars().count() <= 5), "5D I…");
+        assert_eq!(fitted(&all[0], &all, |form| form.chars().count() <= 5), "5D…II");
+        let own = ["TEST (measured)", "TEST (measured 2)"].map(str::to_owned);
+        assert_eq!(fitted(&own[0], &own[..1], |form| form.len() < 12), "TEST");
+        assert_eq!(fitted(&own[1], &own, |form| form.chars().count() <= 11), "TEST (m… 2)");
     }
 }

@@ -1,8 +1,8 @@
 //! Inputs of the metrics, as separate queries, so that each is computed once whatever else changes.
 
 use super::differences::{DifferenceConditions, PatchDifferences, Statistic};
-use super::table::{CameraMetric, MetricSet};
-use super::value::{CameraMetricsQuery, IndexConditions, WhyNot};
+use super::table::CameraMetric;
+use super::value::{CameraMetricsQuery, IndexConditions, MetricSet, WhyNot};
 use crate::ask::{Ask, Query, Shared};
 use crate::compare::DifferenceError;
 use crate::loci::LocusRulesQuery;

@@ -2,7 +2,7 @@
 
 use super::differences::{DifferenceConditions, Statistic};
 use super::evidence::Evidence;
-use super::value::{MetricUncertainty, MetricValue, WhyNot};
+use super::value::{MetricSet, MetricUncertainty, MetricValue, WhyNot};
 use chromascope_color::colorimetry::Metric;
 use chromascope_color::units::eq_by;
 
@@ -326,10 +326,6 @@ impl CameraMetric {
         (self.evaluate)(evidence)
     }
 }
-
-/// Metrics that a question asks for: nothing is computed for the others.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct MetricSet(u64);
 
 const _: () = assert!(COUNT <= 64, "one bit each");
 

@@ -1,6 +1,5 @@
 //! Conditions that metrics are computed under, their values with uncertainties, and reasons for none.
 
-use super::table::MetricSet;
 use crate::ask::Shared;
 use crate::compare::DifferenceError;
 use crate::patches::RenderingQuery;
@@ -151,6 +150,10 @@ pub struct CameraMetricsQuery {
     /// Metrics that are computed; the others are [`WhyNot::NotAsked`].
     pub wanted: MetricSet,
 }
+
+/// Metrics that a question asks for: nothing is computed for the others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct MetricSet(pub(super) u64);
 
 /// Conditions of the sensitivity metamerism index: by ISO 17321-1 the CIE 1931 observer, D55 and the 18 chromatic patches of the
 /// `ColorChecker`.

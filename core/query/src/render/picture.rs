@@ -1,7 +1,7 @@
 //! Pictures side by side: one exposure for all, differences to the reference.
 
 use super::difference::{Difference, DifferenceQuery};
-use super::{CameraImageQuery, Parts, ShadingQuery, SpectralWeightsQuery};
+use super::{CameraImageQuery, LEAST_FACING, Parts, ShadingQuery, SpectralWeightsQuery};
 use crate::ask::{Ask, Query, Shared};
 use crate::patches::RenderingQuery;
 use chromascope_color::camera::RenderingError;
@@ -20,10 +20,6 @@ use std::sync::Arc;
 
 /// The luminance that a material facing the light takes at 0 EV.
 pub const MID_LUMINANCE: f64 = 0.4;
-
-/// Least share of the brightness of an even (Lambertian) scatterer that a material facing the light is exposed for. Steeper
-/// surfaces send less straight back and more to grazing views: exposed for that, they would be white there.
-pub const LEAST_FACING: f64 = 0.2;
 
 /// XYZ of a material that faces light and viewer, through the reference.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]

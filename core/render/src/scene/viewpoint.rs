@@ -111,7 +111,8 @@ impl Viewpoint {
     /// The eye before a mesh: [`Self::eye`], moved where the mesh is to fill a picture.
     ///
     /// With X, Y, Z the mesh's points in view axes from its center and t = tan of half the angle that it is to fill, it is seen
-    /// whole from the distance `max over both axes of (max(X + tZ) − min(X − tZ))/2t`, the eye at the middle of the two.
+    /// whole from the distance `max over both axes of (max(X + tZ) − min(X − tZ))/2t`, the eye at the middle of the two; where the
+    /// lowest part is left out, so high that this stays below a picture that is higher than needed.
     pub fn eye_before(&self, mesh: &Mesh) -> Eye {
         let eye = self.eye(mesh.bounds());
         let Some(frame) = self.frame else { return eye };
@@ -129,8 +130,9 @@ impl Viewpoint {
         let ends: [[f64; 2]; 2] = mesh.framed().fold(|| empty, reach).reduce(|| empty, wider);
         let whole = |axis: usize| (ends[axis][0] + ends[axis][1]) / (2.0 * t[axis]);
         let middle = |axis: usize| (ends[axis][0] - ends[axis][1]) / 2.0;
-        let distance = (frame.zoom * whole(0).max(whole(1))).max(1e-3 * eye.radius);
-        let place = DVec3::new(middle(0), middle(1), distance);
+        let needed = whole(0).max(whole(1));
+        let height = if mesh.is_cropped() { t[1] * needed - ends[1][1] } else { middle(1) };
+        let place = DVec3::new(middle(0), height, (frame.zoom * needed).max(1e-3 * eye.radius));
         if !place.is_finite() {
             return eye;
         }

@@ -87,7 +87,12 @@ impl<'a> Body<'a> {
     fn is_selected(&self, row: usize) -> bool {
         match (self.of.item, &self.selected) {
             (Some(item), Some(selected)) => {
-                item(row).is_some_and(|item| selected.relation_to(&item, &self.reference) == Relation::Same)
+                // A selected camera is that of all rows of its patches.
+                let is_it = |item: PlotItem| {
+                    item.patch().is_some() == selected.patch().is_some()
+                        && selected.relation_to(&item, &self.reference) == Relation::Same
+                };
+                item(row).is_some_and(is_it)
             }
             (Some(_), None) => false,
             (None, _) => self.cursor == Some(row) && !self.of.compact,
@@ -311,17 +316,25 @@ impl Body<'_> {
             ui.painter().rect(rect.shrink(1.0), 3.0, self.theme.control, rim, StrokeKind::Inside);
         }
         let mut place = self.inner(rect);
+        if self.goes_on {
+            // The sign that more columns follow stands at the edge.
+            place.max.x = place.max.x.min(ui.clip_rect().right() - 3.0 * UNIT);
+        }
         if let Some(sorting) = self.sorting.as_ref().filter(|sorting| sorting.column == column.name) {
             let arrow = Rect::from_min_size(place.min, Vec2::new(8.0, HEAD_LINE));
             let arrow =
                 if layout.form == Form::Text { arrow.translate(Vec2::new(place.width() - 8.0, 0.0)) } else { arrow };
             self.arrow(ui, arrow.translate(Vec2::new(0.0, 0.5 * UNIT)), sorting.descending);
+            if layout.form != Form::Text {
+                place.min.x = arrow.right() + 0.5 * UNIT;
+            }
         }
         if !self.of.compact {
             place.min.y += 0.5 * UNIT;
             ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, Stroke::new(1.0, self.theme.line));
         }
-        for (line, text) in [&column.name, &column.unit].into_iter().enumerate() {
+        let has_room = place.width() > 5.0 * UNIT;
+        for (line, text) in [&column.name, &column.unit].into_iter().enumerate().filter(|_| has_room) {
             let at = egui::pos2(place.left(), place.top() + line as f32 * HEAD_LINE);
             let row = Rect::from_min_size(at, Vec2::new(place.width(), HEAD_LINE));
             let fits = lines::width(ui, text, TextStyle::Small) <= row.width();

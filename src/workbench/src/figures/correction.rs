@@ -9,6 +9,7 @@ use chromascope_core::query::TwoLightPoint;
 
 use super::kind::{FigureKind, Need};
 use super::look::FigureLook;
+use super::report_card;
 use crate::export::profile::CorrectionFile;
 use crate::scene::Scene;
 
@@ -37,8 +38,9 @@ pub static KIND: FigureKind =
     FigureKind::new("correction", "Error of a correction between its two lights; needs a second light", figure)
         .needing(Need::Correction);
 
-fn figure(_: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
-    let file = look.correction.as_ref()?;
+fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
+    let camera = report_card::camera(scene, look.selected.as_ref())?.name;
+    let file = look.correction.as_ref().filter(|file| file.of.camera == camera)?;
     let mut figure = Figure::new(title(file), room.size(SIZE, 0.0));
     figure.panels.push(panel(file, figure.size)?);
     figure.legend = CURVES

@@ -46,8 +46,6 @@ pub struct FigureLook {
     pub sorting: Option<Sorting>,
     /// The two cameras of Head to head; `None` for the selected one and the first compared one.
     pub pair: [Option<SensorId>; 2],
-    /// The camera of the report card; `None` for the selected one.
-    pub card: Option<SensorId>,
     /// The camera whose residuals are shown; the best without one.
     pub residuals_of: Option<String>,
     pub shows: Shows,

@@ -49,9 +49,11 @@ pub fn picture_width(room: FigureRoom, count: usize) -> f64 {
     room.width.map_or(WIDTH, |width| ((width - GAP) / across - GAP).max(1.0))
 }
 
-/// Pictures shown, by index: all, or all but the reference.
+/// Pictures shown, by index: all, or all but the reference, which is beside maps only in a place that were empty.
 fn shown(shot: &RenderedFrame, mode: RenderMode) -> Vec<usize> {
-    let only_compared = shot.sources.len() > 1 && matches!(mode, RenderMode::One | RenderMode::Difference);
+    let compared = shot.sources.iter().filter(|source| !source.is_reference).count();
+    let is_free = mode == RenderMode::Difference && !compared.is_multiple_of(columns(compared));
+    let only_compared = compared > 0 && matches!(mode, RenderMode::One | RenderMode::Difference) && !is_free;
     (0..shot.sources.len()).filter(|at| !(only_compared && shot.sources[*at].is_reference)).collect()
 }
 
@@ -190,8 +192,8 @@ impl<'a> PictureCell<'a> {
         let made = shot.made()?;
         let picture = made.pictures.get(self.at)?.as_ref().ok()?;
         let ([width, height], rgba) = match maps {
-            Some(scale) => difference::map(shot, self.at, scale.end),
-            None => ([picture.width, picture.height], picture.rgba.clone()),
+            Some(scale) if !self.source.is_reference => difference::map(shot, self.at, scale.end),
+            _ => ([picture.width, picture.height], picture.rgba.clone()),
         };
         let image = Image { width, height, rgba: rgba.into() };
         let shape = Shape::Image { min: [area.min[0], area.max[1]], max: [area.max[0], area.min[1]], image };

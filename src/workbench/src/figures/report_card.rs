@@ -13,7 +13,8 @@ use chromascope_figure::{
 use super::chromaticity::{conditions, distance_symbol};
 use super::kind::FigureKind;
 use super::look::FigureLook;
-use crate::document::{LOCUS_RANGE_K, SetKind};
+use super::strip::temperature_axis;
+use crate::document::SetKind;
 use crate::format::fixed;
 use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::Scene;
@@ -39,12 +40,10 @@ const LOW_BARS: f64 = 150.0;
 const LINE: f64 = 15.0;
 const FOOT_LINE: f64 = 14.0;
 
-/// The camera of the card: the chosen one, else the selected one, else the first that is compared.
-pub fn camera(scene: &Scene<'_>, look: &FigureLook) -> Option<SensorId> {
+/// The camera of Rank's page: the selected one, else the first that is compared.
+pub fn camera(scene: &Scene<'_>, selected: Option<&PlotItem>) -> Option<SensorId> {
     let is_camera = |id: &&SensorId| id.kind == SetKind::Camera && scene.entry(id.kind, &id.name).is_ok();
-    let selected = look.selected.as_ref().and_then(PlotItem::source);
-    let chosen = look.card.as_ref().filter(is_camera).or(selected.filter(is_camera)).cloned();
-    chosen.or_else(|| {
+    selected.and_then(PlotItem::source).filter(is_camera).cloned().or_else(|| {
         let first = scene.document.compared.iter().find(|c| c.kind == SetKind::Camera)?;
         Some(SensorId { kind: first.kind, name: first.name.clone() })
     })
@@ -54,7 +53,7 @@ pub static KIND: FigureKind = FigureKind::new("report-card", "All figures of mer
 
 /// The page of the camera of the card as it is saved; none without a camera that can be shown.
 fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
-    let id = camera(scene, look)?;
+    let id = camera(scene, look.selected.as_ref())?;
     let figures = scene.camera_figures(id.kind, &id.name).ok()?;
     let width = room.width.unwrap_or(WIDTH).max(2.0 * LIST_COLUMN);
     Some(page(scene, &id, &figures, width))
@@ -132,27 +131,30 @@ fn title(source: &[String], name: &[String], area: Rect) -> Panel {
 /// Sensitivities over the wavelength, scaled to the largest.
 fn sensitivities(scene: &Scene<'_>, id: &SensorId, area: Rect) -> Panel {
     let x = Axis::new("wavelength (nm)", [FIRST_NM, LAST_NM]);
-    let note = "sensitivities, largest = 1".to_owned();
+    let note = "sensitivity".to_owned();
     let mut panel = Panel { note, ..Panel::new("sensitivities", area, x, Axis::new("", [0.0, 1.1])) };
     let Ok(sensor) = scene.sensor(id.kind, &id.name) else { return panel };
     let peak = sensor.curves().iter().flat_map(SpectralDistribution::values).copied().fold(f64::MIN_POSITIVE, f64::max);
     let inks = [[0xC0, 0x30, 0x30], [0x30, 0x90, 0x30], [0x30, 0x50, 0xC0]].map(Ink::rgb);
+    let mut names = Vec::new();
     for ((curve, ink), name) in sensor.curves().iter().zip(inks).zip(sensor.primaries().channels()) {
         let samples = curve.wavelengths_nm().iter().zip(curve.values());
         let points = samples.map(|(nm, value)| [*nm, value / peak]).filter(|p| (FIRST_NM..=LAST_NM).contains(&p[0]));
-        panel.marks.push(line(name, points.collect(), ink, 1.5));
+        let points: Vec<[f64; 2]> = points.collect();
+        let top = points.iter().copied().max_by(|a, b| a[1].total_cmp(&b[1])).unwrap_or_default();
+        names.push(Label::new(name[..1].to_uppercase(), ink, Place::around(top, [0.0, -1.0], 3.0)));
+        panel.marks.push(line(name, points, ink, 1.5));
     }
-    panel.with_headroom(2.0)
+    named(&panel, &names)
 }
 
 /// Distance from the reference's Planckian locus at equal temperature, over reciprocal temperature.
 fn locus(scene: &Scene<'_>, id: &SensorId, area: Rect) -> Panel {
     let diagram = scene.document.diagram;
-    let [cold, hot] = LOCUS_RANGE_K.map(|kelvin| 1e6 / kelvin);
-    let ticks = [1000.0, 1500.0, 2500.0, 6500.0].map(|kelvin| (1e6 / kelvin, format!("{kelvin:.0}")));
-    let words = "blackbody temperature (K)";
-    let fits = text_width(words, TextSize::Small) < area.width() - Projection::LEFT - 8.0;
-    let x = Axis::new(if fits { words } else { "temperature (K)" }, [cold, hot]).with_ticks(Ticks::At(ticks.into()));
+    let mut x = temperature_axis();
+    if text_width(&x.label, TextSize::Small) > area.width() - Projection::LEFT - 8.0 {
+        "T (1000 K)".clone_into(&mut x.label);
+    }
     let pair = scene
         .locus(id.kind, &id.name)
         .and_then(|own| Ok((own, scene.locus(SetKind::Observer, &scene.document.reference)?)));

@@ -56,6 +56,8 @@ impl Built {
 
 /// The height of the band of colors with its labels.
 const FOOT: f64 = 4.0 + Projection::BOTTOM + Projection::TITLE;
+/// Height below which the sensitivities that lie over each other stand alone.
+const LOW: f64 = 180.0;
 /// Width below which notes are shortest.
 const NARROW: f64 = 300.0;
 
@@ -63,7 +65,8 @@ pub fn build(scene: &Scene<'_>, look: &FigureLook, size: [f64; 2]) -> Built {
     let mut built = Built::default();
     let sources = scene.visible_sources();
     let mut contents = Vec::new();
-    for make in [content::light, content::patches] {
+    let is_low = size[1] < LOW && look.spectra_layout == SpectraLayout::Overlay && !sources.is_empty();
+    for make in [content::light, content::patches].into_iter().filter(|_| !is_low) {
         let made = make(scene, &mut built);
         contents.extend(made.map(|content| built.noted(content)));
     }

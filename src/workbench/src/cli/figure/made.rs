@@ -58,7 +58,7 @@ pub(super) fn look(
             (look.mode, look.pictures) = (mode, Some(Arc::new(made)));
         }
         Need::Correction => {
-            if let Some(camera) = report_card::camera(scene, &look) {
+            if let Some(camera) = report_card::camera(scene, look.selected.as_ref()) {
                 let request = CorrectionRequest { camera: &camera.name, ..CorrectionRequest::default() };
                 let query = CorrectionFileQuery::new(scene, request)?;
                 look.correction = Some((*scene.results.ask(&query)).clone()?);

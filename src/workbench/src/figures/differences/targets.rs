@@ -296,7 +296,7 @@ struct Heads<'a> {
 impl<'a> Heads<'a> {
     /// Room of the marker before the name, and between name and statistics.
     const KEY: f64 = 17.0;
-    const AIR: f64 = 10.0;
+    const AIR: f64 = 6.0;
 
     fn new(frame: &'a Frame, all: &[Compared], decimals: usize, note: Option<String>) -> Self {
         let full: Vec<String> = all.iter().map(|one| one.source.label.clone()).collect();

@@ -1,8 +1,8 @@
 //! Share of light that the chosen surface returns, in words: an indication of the reflectance model's limits.
 
 use chromascope_core::query::Ask as _;
+use chromascope_core::query::render::LEAST_FACING;
 use chromascope_core::query::render::Roughness;
-use chromascope_core::query::render::picture::LEAST_FACING;
 use chromascope_core::query::render::returned::{ReturnedLight, ReturnedLightQuery};
 use chromascope_core::reflectance::{Normalization, Surface};
 
