@@ -156,7 +156,7 @@ fn results_of_other_conditions_are_not_put_to_use() {
     name_light(&mut window, 1, Light::Set("FL11".to_owned()));
     assert!(!can(&window, ADD) && !can(&window, "DCP…") && window.query_by_label("Computing…").is_some());
     settle(&mut window);
-    assert!(!can(&window, ADD) && window.query_by_label_contains("second.png, by itself").is_some());
+    assert!(!can(&window, ADD) && window.query_by_label_contains("second.png by itself").is_some());
     name_light(&mut window, 1, own_light());
     settle(&mut window);
     assert!(can(&window, ADD));

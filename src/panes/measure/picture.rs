@@ -18,7 +18,7 @@ const CORNERS: [&str; 4] = ["top left", "top right", "bottom right", "bottom lef
 /// Of patches with clipped pixels, which are dashed too.
 const CLIPPED: InkRole = InkRole::Rgb([235, 50, 60]);
 /// Height of the picture relative to that of the pane.
-const HEIGHT: f32 = 0.75;
+const HEIGHT: f32 = 0.62;
 /// Distance in points from which a corner is taken hold of.
 const REACH: f32 = 14.0;
 

@@ -20,11 +20,13 @@ use crate::panes::widgets;
 use crate::panes::widgets::table::DataTable;
 use crate::plot_item::PlotItem;
 use crate::scene::recorded::{RANK_CAUTION, RankedCamera};
+use crate::theme::UNIT;
 use crate::workspaces::{PaneKind, Workspace};
 
 const CURVES: f32 = 300.0;
 /// Width from which on tables stand side by side.
 const TWO_COLUMNS: f32 = 1100.0;
+const GAP: f32 = 4.0 * UNIT;
 const LIGHT: &str = "The curves depend on it: a measured spectrum or the lamp's illuminant (A for halogen and tungsten, FL for \
     fluorescent lamps); \"Daylight of unknown temperature\" outdoors only.";
 /// Cameras of the library that are named.
@@ -60,10 +62,15 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
             identify(ui, &recorded, context);
             return patches(ui, &measured, context);
         }
-        ui.columns(2, |columns| {
-            profile(&mut columns[0], &measured, context);
-            identify(&mut columns[0], &recorded, context);
-            patches(&mut columns[1], &measured, context);
+        ui.horizontal_top(|ui| {
+            let width = 0.5 * ui.available_width() - GAP;
+            ui.vertical(|ui| {
+                ui.set_max_width(width);
+                profile(ui, &measured, context);
+                identify(ui, &recorded, context);
+            });
+            ui.add_space(GAP);
+            ui.vertical(|ui| patches(ui, &measured, context));
         });
     });
 }

@@ -116,7 +116,7 @@ pub enum RecoveryError {
     NoPrior,
     #[error("no matrix can be fitted to the patches: {0}")]
     Correction(#[from] FitError),
-    #[error("{picture}, by itself: {reason}")]
+    #[error("{reason} ({picture} by itself)")]
     Picture { picture: String, reason: Box<Self> },
 }
 

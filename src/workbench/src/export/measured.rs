@@ -64,7 +64,7 @@ pub const MATRIX: &str = "from raw RGB balanced to white = 1 to XYZ, fitted to t
     it is the ForwardMatrix (adapted to D50), and with the balance the ColorMatrix";
 /// Distances above which a camera is very unlike the library's: from their mean in standard deviations, and from the nearest table.
 const UNLIKE: [f64; 2] = [1.2, 0.2];
-/// Temperature in kelvins below which there is no daylight.
+/// Temperature in kelvins below which there is no daylight; doubtful from one standard deviation above it.
 const WARMEST: f64 = 4000.0;
 /// Excess of a mean measured ΔE\*00 over the predicted one that is no noise, and relative to it.
 const EXCESS: [f64; 2] = [0.5, 0.4];
@@ -75,10 +75,8 @@ pub fn conditions(measured: &ChartMeasurement) -> Vec<String> {
     let glare = recovery.glare.map(|glare| fixed(100.0 * glare, 2)).join(", ");
     let [ratio, unlikeness] = [recovery.noise_ratio, recovery.unlikeness].map(|value| fixed(value, 2));
     let uneven = fixed(100.0 * recovery.unevenness, 1);
-    let [what, widened] = match recovery.unlikeness > 1.0 {
-        true => ["unlike", "; its bands are widened by that factor, and may still be too narrow"],
-        false => ["like", ""],
-    };
+    let widened = "; its bands are widened by that factor, and may still be too narrow";
+    let [what, widened] = if recovery.unlikeness > 1.0 { ["unlike", widened] } else { ["like", ""] };
     let mut lines = vec![
         format!("Chart: {}", measured.charts.join(", ")),
         format!(
@@ -101,10 +99,10 @@ pub fn conditions(measured: &ChartMeasurement) -> Vec<String> {
 /// Signs that light or chart are not those named: where there are any, nothing is made of a measurement without consent.
 pub fn doubts(measured: &ChartMeasurement) -> Vec<String> {
     let mut doubts = Vec::new();
-    if let Some([kelvin, _]) = measured.daylight.filter(|[kelvin, _]| *kelvin < WARMEST) {
-        let kelvin = fixed(kelvin, 0);
+    if let Some([kelvin, deviation]) = measured.daylight.filter(|[kelvin, deviation]| kelvin - deviation < WARMEST) {
+        let [kelvin, by] = [kelvin, 2.0 * deviation].map(|value| fixed(value, 0));
         doubts.push(format!(
-            "Daylight of {kelvin} K: this is likely no daylight, which is above {WARMEST} K; name the light"
+            "Daylight of {kelvin} K ± {by} K: this is likely no daylight, which is above {WARMEST} K; name the light"
         ));
     }
     let nearest = measured.nearest.first().map_or(0.0, |(_, distance)| *distance);
