@@ -8,10 +8,10 @@ use chromascope_core::query::Shared;
 
 use super::ChromascopeApp;
 use crate::action::{Action, ImportedAction, RenderAction};
+use crate::catalog::chart_picture::is_picture;
 use crate::catalog::import::{Imported, imported};
 use crate::catalog::likeness::Likeness;
 use crate::catalog::opened::{CLIPBOARD, OpenFile, OpenedEvent, Request, Why};
-use crate::catalog::recorded_store::is_picture;
 use crate::command::Command;
 use crate::document::imported::{Fingerprint, ImportOverrides, ImportedSet, Role};
 use crate::document::render::MeshChoice;

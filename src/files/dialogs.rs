@@ -4,8 +4,8 @@ use std::cell::Cell;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
+use crate::catalog::chart_picture::pictures;
 use crate::catalog::meshes::ENDINGS as MESH_ENDINGS;
-use crate::catalog::recorded_store::PICTURES;
 use crate::catalog::spectral_images::ENDINGS as IMAGE_ENDINGS;
 use crate::document::session;
 
@@ -59,7 +59,7 @@ impl Dialogs for System {
                 .add_filter("Text and CSV", &ENDINGS)
                 .add_filter("Meshes", &MESH_ENDINGS)
                 .add_filter("Spectral images", &IMAGE_ENDINGS)
-                .add_filter("Pictures of charts", &PICTURES)
+                .add_filter("Pictures of charts", &pictures().collect::<Vec<_>>())
                 .add_filter("All files", &["*"])
                 .pick_files(),
             Question::Folder { title } => {

@@ -6,7 +6,7 @@ mod results;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use chromascope_core::query::ChartMeasurement;
+use chromascope_core::query::{ChartMeasurement, RecordedSet};
 use egui::{Label, Rect, RichText, TextEdit, Ui};
 
 use super::context::{Pane, PaneContext};
@@ -17,6 +17,7 @@ use crate::document::{Light, SetKind};
 use crate::format::sentence;
 use crate::panes::widgets;
 use crate::panes::widgets::pick_list::{self, Line};
+use crate::scene::measurement::STAND_IN_K;
 use crate::scene::recovery::MeasuredCameraQuery;
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
@@ -40,8 +41,10 @@ struct State {
     taken: Option<PathBuf>,
     /// The last question, and what it is of.
     asked: Option<(Measurement, MeasuredCameraQuery)>,
-    /// The last answer, and the question.
-    shown: Option<(MeasuredCameraQuery, Arc<ChartMeasurement>)>,
+    /// The last answer with its question, and the patches of all pictures.
+    shown: Option<(MeasuredCameraQuery, Arc<ChartMeasurement>, RecordedSet)>,
+    /// True if the answer is to be used in spite of what is doubtful about it.
+    is_accepted: bool,
 }
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
@@ -65,6 +68,10 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         picture::show(ui, context);
         if !is_empty {
             shots(ui, context);
+            widgets::note(
+                ui,
+                "The session keeps the values of the patches, corners, lights and curves, not the photographs.",
+            );
             results::show(ui, context);
         }
     });
@@ -107,30 +114,31 @@ fn one_shot(ui: &mut Ui, index: usize, shot: &MeasuredShot, context: &mut PaneCo
     let (scene, theme) = (context.scene, context.theme);
     ui.label(&shot.file);
     ui.label("under");
-    let mut lights = vec![(Line::new("Daylight of unknown temperature", shot.light.is_none()), None)];
-    let of_scene = (scene.document.light.clone(), scene.document.temperature_k);
+    const UNKNOWN: &str = "Daylight of unknown temperature";
+    let mut lights = vec![(Line::new(UNKNOWN, shot.is_daylight()), (Light::Daylight, None))];
+    let of_scene = (scene.document.light.clone(), Some(scene.document.temperature_k));
     if !matches!(of_scene.0, Light::Set(_)) {
-        let words = format!("As in the scene bar: {}", scene.light_name());
-        lights.push((Line::new(words, shot.light.as_ref() == Some(&of_scene.0)), Some(of_scene)));
+        let is_on = (shot.light.as_ref(), shot.temperature_k) == (Some(&of_scene.0), of_scene.1);
+        lights.push((Line::new(format!("As in the scene bar: {}", scene.light_name()), is_on), of_scene));
     }
     lights.extend(scene.entries(SetKind::Illuminant).map(|entry| {
         let light = Light::Set(entry.name.clone());
-        (Line::of_set(&entry, shot.light.as_ref() == Some(&light)), Some((light, shot.temperature_k)))
+        (Line::of_set(&entry, shot.light.as_ref() == Some(&light)), (light, None))
     }));
-    let now = match &shot.light {
-        None => "Daylight of unknown temperature".to_owned(),
-        Some(Light::Set(name)) => name.clone(),
-        Some(Light::BlackBody) => format!("blackbody {:.0} K", shot.temperature_k),
-        Some(Light::Daylight) => format!("daylight {:.0} K", shot.temperature_k),
+    let now = match (&shot.light, shot.temperature_k) {
+        (None, _) => "Choose the light".to_owned(),
+        (Some(Light::Set(name)), _) => name.clone(),
+        (Some(Light::BlackBody), kelvin) => format!("blackbody {:.0} K", kelvin.unwrap_or(STAND_IN_K)),
+        (Some(Light::Daylight), Some(kelvin)) => format!("daylight {kelvin:.0} K"),
+        (Some(Light::Daylight), None) => UNKNOWN.to_owned(),
     };
     let hint = ("Light of the picture", "The light that the chart was photographed under");
     let lines = || lights.iter().map(|(line, _)| line.clone()).collect();
     if let Some(chosen) = pick_list::drop_down(ui, hint, now, PICK, &theme, lines) {
-        let to = lights[chosen].1.clone();
+        let (light, temperature_k) = lights[chosen].1.clone();
         change(context, "Light of a picture", |measurement| {
             let shot = &mut measurement.shots[index];
-            shot.light = to.as_ref().map(|(light, _)| light.clone());
-            shot.temperature_k = to.map_or(shot.temperature_k, |(_, kelvin)| kelvin);
+            (shot.light, shot.temperature_k) = (Some(light), temperature_k);
         });
     }
     ui.label("on");

@@ -13,6 +13,7 @@ mod names;
 mod outputs;
 mod presets;
 mod radiance;
+mod recover;
 mod reference;
 mod report;
 mod sets;

@@ -2,17 +2,19 @@
 
 use std::path::{Path, PathBuf};
 
+use chromascope::action::Action;
 use chromascope::action::history::History;
 use chromascope::app::ChromascopeApp;
 use chromascope::command::Command;
 use chromascope::document::session::{from_json, to_json};
-use chromascope::document::{Document, SetKind};
+use chromascope::document::{Document, Light, SensorId, SetKind};
 use chromascope::files::Files;
 use chromascope::jobs::Executor;
+use chromascope::plot_item::PlotItem;
 use chromascope::view::SavedView;
-use chromascope::workspaces::PaneKind;
+use chromascope::workspaces::{PaneKind, Workspace};
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::cpu_renderer::Cpu;
 use crate::recorded::recording;
@@ -23,11 +25,16 @@ type Window = Harness<'static, ChromascopeApp>;
 const CORNERS: [[f64; 2]; 4] = [[60.0, 40.0], [540.0, 40.0], [540.0, 360.0], [60.0, 360.0]];
 
 fn window() -> Window {
+    window_on(&Executor::default())
+}
+
+fn window_on(executor: &Executor) -> Window {
+    let executor = executor.clone();
     let mut window =
         Harness::builder().with_size([1280.0, 800.0]).with_pixels_per_point(1.0).renderer(Cpu::default()).build_eframe(
-            |cc| {
+            move |cc| {
                 let history = History::new(Document::colorimetry());
-                ChromascopeApp::on(&Executor::default(), &cc.egui_ctx, history, SavedView::default(), Files::new(None))
+                ChromascopeApp::on(&executor, &cc.egui_ctx, history, SavedView::default(), Files::new(None))
             },
         );
     window.run();
@@ -59,12 +66,42 @@ fn until(window: &mut Window, words: &str) {
     });
 }
 
+/// Names the light of a picture.
+fn name_light(window: &mut Window, shot: usize, light: Light) {
+    let mut to = window.state().history.document().measurement.clone();
+    to.shots[shot].light = Some(light);
+    window.state_mut().push(Command::Do(Action::Measure("Light of a picture", Box::new(to))));
+    window.run_steps(2);
+}
+
+fn can(window: &Window, button: &str) -> bool {
+    !window.get_by_label(button).accesskit_node().is_disabled()
+}
+
+/// The light that pictures of these tests are recorded under.
+fn own_light() -> Light {
+    Document::colorimetry().light
+}
+
+fn cameras(window: &Window) -> Vec<String> {
+    let own = &window.state().history.document().own;
+    own.iter().filter(|set| SetKind::of_own(set) == SetKind::Camera).map(|set| set.name.clone()).collect()
+}
+
+const ADD: &str = "Add to the library and compare";
+
 #[test]
 fn a_photographed_chart_becomes_a_camera() {
     let mut window = window();
     window.state_mut().push(Command::OpenPath(picture("measured.png", 12)));
-    until(&mut window, "Add to the library");
+    until(&mut window, "Choose the light that measured.png");
+    assert!(!can(&window, ADD), "nothing is known without the light");
     assert!(window.state().view.is_shown(PaneKind::MEASURE), "wherever a picture is opened, it leads there");
+    name_light(&mut window, 0, own_light());
+    until(&mut window, "1. Nikon D70 (A.M.P.A.S.)");
+    for words in ["red, %", "leave-one-out", "± is expanded", "ForwardMatrix", "not the photographs", "BabelColor"] {
+        assert!(window.query_all_by_label_contains(words).next().is_some(), "{words}");
+    }
     let shots = window.state().history.document().measurement.shots.clone();
     for (corner, wanted) in shots[0].corners.iter().zip(CORNERS) {
         assert!((corner[0] - wanted[0]).hypot(corner[1] - wanted[1]) < 3.0, "{:?}", shots[0].corners);
@@ -72,18 +109,57 @@ fn a_photographed_chart_becomes_a_camera() {
     // All that is known of the picture is in the document: it opens elsewhere, without the picture.
     let document = window.state().history.document().clone();
     assert_eq!(from_json(&to_json(&document).unwrap()).unwrap().measurement, document.measurement);
-    // The table of the camera that recorded it fits best.
-    until(&mut window, "1. Nikon D70 (A.M.P.A.S.)");
-    window.get_by_label("Add to the library and compare").click();
-    window.run_steps(3);
+    for _ in 0..2 {
+        window.get_by_label(ADD).click();
+        window.run_steps(3);
+        assert_eq!(cameras(&window), ["My camera (measured)"], "added again, it takes its own place");
+        until(&mut window, "1. Nikon D70 (A.M.P.A.S.)");
+    }
     let document = window.state().history.document();
     let set = document.own.iter().find(|set| SetKind::of_own(set) == SetKind::Camera).expect("it is a camera");
     assert!(set.covariance.is_some() && set.curves.iter().all(|curve| curve.uncertainty.is_some()));
     assert!(document.compared(SetKind::Camera, &set.name).is_some());
-    window.state_mut().push(Command::Undo);
-    window.state_mut().push(Command::Undo);
-    window.run_steps(2);
+    let id = SensorId { kind: SetKind::Camera, name: set.name.clone() };
+    window.get_by_label("Show in Rank").click();
+    window.run_steps(3);
+    assert_eq!(window.state().view.selected, Some(PlotItem::Sensor(id)));
+    assert_eq!(window.state().view.saved.workspace, Workspace::Rank);
+    assert_eq!(window.state().history.undo_name(), Some("Add camera My camera (measured)"));
+    for _ in 0..4 {
+        window.state_mut().push(Command::Undo);
+        window.run_steps(2);
+    }
     assert!(window.state().history.document().measurement.shots.is_empty(), "each change is a step back");
+}
+
+/// A wrong light is refused beside a right one as it is alone, and what is on show is not put to use meanwhile.
+#[test]
+fn results_of_other_conditions_are_not_put_to_use() {
+    let executor = Executor::driven();
+    let mut window = window_on(&executor);
+    let settle = |window: &mut Window| {
+        for _ in 0..6 {
+            executor.run_all();
+            window.run_steps(2);
+        }
+    };
+    for name in ["first.png", "second.png"] {
+        window.state_mut().push(Command::OpenPath(picture(name, 12)));
+        window.run_steps(2);
+        settle(&mut window);
+    }
+    for shot in 0..2 {
+        name_light(&mut window, shot, own_light());
+    }
+    settle(&mut window);
+    assert!(can(&window, ADD) && window.query_by_label("Computing…").is_none());
+    name_light(&mut window, 1, Light::Set("FL11".to_owned()));
+    assert!(!can(&window, ADD) && !can(&window, "DCP…") && window.query_by_label("Computing…").is_some());
+    settle(&mut window);
+    assert!(!can(&window, ADD) && window.query_by_label_contains("second.png by itself").is_some());
+    name_light(&mut window, 1, own_light());
+    settle(&mut window);
+    assert!(can(&window, ADD));
 }
 
 #[test]
@@ -108,7 +184,7 @@ fn where_no_chart_is_found_its_corners_are_clicked() {
         }
         window.run_steps(3);
     }
-    until(&mut window, "Add to the library");
+    until(&mut window, "Choose the light that gapless.png");
     let shots = &window.state().history.document().measurement.shots;
     for (corner, wanted) in shots[0].corners.iter().zip(CORNERS) {
         assert!((corner[0] - wanted[0]).hypot(corner[1] - wanted[1]) < 6.0, "{:?}", shots[0].corners);
@@ -117,9 +193,19 @@ fn where_no_chart_is_found_its_corners_are_clicked() {
 
 #[test]
 fn a_picture_that_holds_no_raw_values_says_what_to_do() {
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("photo.cr2");
-    std::fs::write(&path, b"II*\0\x10\0\0\0CR\x02\0").unwrap();
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    image::RgbImage::new(8, 8).save(folder.join("photo.png")).unwrap();
+    let eight_bits = std::fs::read(folder.join("photo.png")).unwrap();
     let mut window = window();
-    window.state_mut().push(Command::OpenPath(path));
-    until(&mut window, "DNG");
+    for (name, bytes, words) in [
+        ("photo.cr2", &b"II*\0\x10\0\0\0CR\x02\0"[..], "DNG Converter"),
+        ("photo.NEF", b"no TIFF", "dnglab"),
+        ("photo.cr3", b"\0\0\0\x18ftypcrx ", "DNG Converter"),
+        ("photo.jpg", &eight_bits, "tone curve hides the raw values"),
+        ("photo.heic", b"\0\0\0\x18ftypheic", "tone curve hides the raw values"),
+    ] {
+        std::fs::write(folder.join(name), bytes).unwrap();
+        window.state_mut().push(Command::OpenPath(folder.join(name)));
+        until(&mut window, words);
+    }
 }

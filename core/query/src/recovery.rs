@@ -4,9 +4,11 @@ use super::ask::{Ask, Query, Shared};
 use chromascope_color::correction::root_polynomial::Degree;
 use chromascope_color::correction::{Correction, CorrectionMethod};
 use chromascope_color::light::DaylightBasis;
+use chromascope_color::patch_set::PatchSet;
 use chromascope_color::recovery::{ChartRecovery, Library, RecoveryError, Shot, ShotProfile, left_out};
 use chromascope_color::spectral::{GridSpectrum, Quantity, Sensor};
 use chromascope_color::units::Kelvin;
+use rayon::prelude::*;
 use std::sync::Arc;
 
 /// Standard deviation of daylight's reciprocal temperature about the best of steps of 20, in mireds.
@@ -23,6 +25,10 @@ pub struct ChartShot {
     pub is_daylight: bool,
     /// Name of the light: shots under one light make one profile.
     pub light: String,
+    /// Name of the chart.
+    pub chart: String,
+    /// Name of the picture, for reasons of refusal.
+    pub picture: String,
 }
 
 /// Sensitivities from shots of a chart, with all that is known of them.
@@ -34,8 +40,10 @@ pub struct ChartRecoveryQuery {
     pub shots: Vec<ChartShot>,
     /// Basis of daylight, for shots under daylight of unknown temperature.
     pub daylight: Shared<DaylightBasis>,
-    /// Lights that a single shot may have been taken under instead, by name: it is refused where one is far more probable.
+    /// Lights that a shot may have been taken under instead, by name: it is refused where one is far more probable.
     pub other_lights: Vec<(String, Shared<GridSpectrum>)>,
+    /// Charts whose patches may have been recorded instead, by name.
+    pub other_charts: Vec<(String, Shared<PatchSet>)>,
     /// CIE 1931 2°, to which profiles are fitted.
     pub observer: Shared<Sensor>,
 }
@@ -47,6 +55,10 @@ pub struct ChartMeasurement {
     pub recovery: ChartRecovery,
     /// The shots under the light that was found.
     pub shots: Vec<Shot>,
+    /// Names of the charts of the shots, each once.
+    pub charts: Vec<String>,
+    /// Chart that is far more probable than the one that was named.
+    pub better_chart: Option<String>,
     /// Daylight's temperature with its standard deviation in kelvins, where it was unknown.
     pub daylight: Option<[f64; 2]>,
     /// Tables by their distance from the curves, nearest first, relative to the curves' root mean square.
@@ -88,39 +100,17 @@ impl ChartRecoveryQuery {
     fn others(&self, shots: &[Shot]) -> Vec<(String, Vec<Shot>)> {
         let turned = ("the chart turned by 180°".to_owned(), shots.iter().map(Shot::turned).collect());
         let others = match (shots, self.shots.as_slice()) {
-            ([shot], [given]) if !given.is_daylight => {
-                let other = |(name, light): &(String, Shared<GridSpectrum>)| {
-                    (format!("the light {name}"), vec![shot.under(light)])
-                };
-                self.other_lights.iter().map(other).collect()
+            ([shot], [given]) => {
+                let lights = self.other_lights.iter().filter(|(name, _)| *name != given.light);
+                lights.map(|(name, light)| (format!("the light {name}"), vec![shot.under(light)])).collect()
             }
             _ => Vec::new(),
         };
         std::iter::once(turned).chain(others).collect()
     }
 
-    fn profiles(&self, recovery: &ChartRecovery, shots: &[Shot]) -> Result<Vec<(String, ShotProfile)>, RecoveryError> {
-        let mut names: Vec<&String> = Vec::new();
-        for shot in &self.shots {
-            if !names.contains(&&shot.light) {
-                names.push(&shot.light);
-            }
-        }
-        let profile = |name: &String| {
-            let under: Vec<usize> = (0..shots.len()).filter(|at| self.shots[*at].light == *name).collect();
-            let profile = ShotProfile::new(recovery, shots, &under, &self.observer, &Self::corrections())?;
-            Ok((name.clone(), profile))
-        };
-        names.into_iter().map(profile).collect()
-    }
-}
-
-impl Query for ChartRecoveryQuery {
-    type Answer = Result<Arc<ChartMeasurement>, RecoveryError>;
-    const NAME: &'static str = "sensitivities from a chart";
-    const CAPACITY: usize = 8;
-
-    fn answer(&self, _: &impl Ask) -> Self::Answer {
+    /// Curves, the shots under their lights, and daylight's reciprocal temperature where it is unknown.
+    fn recovered(&self) -> Result<(ChartRecovery, Vec<Shot>, Option<f64>), RecoveryError> {
         let mut mired = None;
         if self.shots.iter().any(|shot| shot.is_daylight) {
             let (found, near) = ChartRecovery::under_daylight(&self.library, |mired| self.at(mired))?;
@@ -130,16 +120,69 @@ impl Query for ChartRecoveryQuery {
         let shots = self.at(mired.unwrap_or_default());
         let others = self.others(&shots);
         let named = others.iter().map(|(what, shots)| (what.clone(), shots.as_slice()));
-        let recovery = ChartRecovery::against(&self.library, &shots, named)?;
+        Ok((ChartRecovery::against(&self.library, &shots, named)?, shots, mired))
+    }
+
+    /// Refuses what a shot contradicts by itself: several may hide it in curves that are unlike any camera's.
+    fn each_alone(&self) -> Result<(), RecoveryError> {
+        let alone = |shot: &ChartShot| match (Self { shots: vec![shot.clone()], ..self.clone() }).recovered() {
+            Err(reason @ (RecoveryError::Fit { .. } | RecoveryError::Contradicted { .. })) => {
+                Err(RecoveryError::Picture { picture: shot.picture.clone(), reason: Box::new(reason) })
+            }
+            _ => Ok(()),
+        };
+        let all: Vec<Result<(), RecoveryError>> = self.shots.par_iter().map(alone).collect();
+        all.into_iter().collect()
+    }
+
+    /// Names that the shots have, each once.
+    fn names(&self, of: impl Fn(&ChartShot) -> &String) -> Vec<String> {
+        let mut names: Vec<String> = Vec::new();
+        for name in self.shots.iter().map(of) {
+            if !names.contains(name) {
+                names.push(name.clone());
+            }
+        }
+        names
+    }
+
+    fn profiles(&self, recovery: &ChartRecovery, shots: &[Shot]) -> Result<Vec<(String, ShotProfile)>, RecoveryError> {
+        let profile = |name: String| {
+            let under: Vec<usize> = (0..shots.len()).filter(|at| self.shots[*at].light == name).collect();
+            let profile = ShotProfile::new(recovery, shots, &under, &self.observer, &Self::corrections())?;
+            Ok((name, profile))
+        };
+        self.names(|shot| &shot.light).into_iter().map(profile).collect()
+    }
+}
+
+impl Query for ChartRecoveryQuery {
+    type Answer = Result<Arc<ChartMeasurement>, RecoveryError>;
+    const NAME: &'static str = "sensitivities from a chart";
+    const CAPACITY: usize = 8;
+
+    fn answer(&self, _: &impl Ask) -> Self::Answer {
+        if self.shots.len() > 1 {
+            self.each_alone()?;
+        }
+        let (recovery, shots, mired) = self.recovered()?;
         // Modes are in the order of the shots; all stand for one temperature, each by its own shot.
         let daylight = mired.zip(recovery.light.first()).map(|(mired, [t, deviation])| {
             let kelvin = 1e6 / (mired + t * MIREDS);
             [kelvin, kelvin * kelvin * 1e-6 * deviation * MIREDS]
         });
+        let others = self.other_charts.iter().filter_map(|(name, chart)| {
+            let shots = shots.iter().map(|shot| shot.of_chart(chart)).collect::<Option<Vec<Shot>>>()?;
+            Some((name.clone(), shots))
+        });
+        let others: Vec<(String, Vec<Shot>)> = others.collect();
+        let others = others.iter().map(|(name, shots)| (name.clone(), shots.as_slice()));
+        let better_chart = recovery.contradiction(&self.library, others).map(|(name, _)| name);
         let nearest = self.library.nearest(&recovery.curves.values);
         let nearest = nearest.into_iter().map(|(name, distance)| (name.to_owned(), distance)).collect();
         let left_out = left_out(&self.library, &shots, &self.observer)?;
         let profiles = self.profiles(&recovery, &shots)?;
-        Ok(Arc::new(ChartMeasurement { recovery, shots, daylight, nearest, left_out, profiles }))
+        let charts = self.names(|shot| &shot.chart);
+        Ok(Arc::new(ChartMeasurement { recovery, shots, charts, better_chart, daylight, nearest, left_out, profiles }))
     }
 }

@@ -17,8 +17,8 @@ use crate::panes::widgets;
 const CORNERS: [&str; 4] = ["top left", "top right", "bottom right", "bottom left"];
 /// Of patches with clipped pixels, which are dashed too.
 const CLIPPED: InkRole = InkRole::Rgb([235, 50, 60]);
-const WIDTH: f32 = 720.0;
-const HEIGHT: f32 = 420.0;
+/// Height of the picture relative to that of the pane.
+const HEIGHT: f32 = 0.62;
 /// Distance in points from which a corner is taken hold of.
 const REACH: f32 = 14.0;
 
@@ -83,13 +83,14 @@ fn take(name: &str, photo: &ChartPhoto, context: &mut PaneContext<'_>) {
 }
 
 fn new_shot(file: String, corners: [[f64; 2]; 4], patches: Vec<MeasuredPatch>) -> MeasuredShot {
-    MeasuredShot { file, chart: PHOTOGRAPHED_CHART.to_owned(), light: None, temperature_k: 5500.0, corners, patches }
+    MeasuredShot { file, chart: PHOTOGRAPHED_CHART.to_owned(), light: None, temperature_k: None, corners, patches }
 }
 
 fn draw(ui: &mut Ui, name: &str, photo: &ChartPhoto, corners: &[[f64; 2]], context: &mut PaneContext<'_>) {
     let [width, height] = photo.picture.size().map(|side| side as f64);
-    let room = ui.available_width().min(WIDTH);
-    let size = Vec2::new(room, (room * (height / width) as f32).min(HEIGHT));
+    let aspect = (width / height) as f32;
+    let room = ui.available_width().min(HEIGHT * ui.clip_rect().height() * aspect);
+    let size = Vec2::new(room, room / aspect);
     let (place, _) = ui.allocate_exact_size(size, Sense::hover());
     let mut panel = Panel::new(
         "picture",

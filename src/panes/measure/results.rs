@@ -3,13 +3,13 @@
 use std::sync::Arc;
 
 use chromascope_core::camera::recorded::Freedom;
-use chromascope_core::query::ChartMeasurement;
-use egui::{Id, Label, RichText, Sense, Ui, Vec2};
+use chromascope_core::query::{ChartMeasurement, RecordedSet, Shared};
+use egui::{Button, Id, Label, RichText, Sense, Ui, Vec2};
 
 use super::{State, heading, wrong};
 use crate::action::{Action, ImportedAction};
 use crate::command::Command;
-use crate::document::SetKind;
+use crate::document::{Document, SensorId, SetKind};
 use crate::export::measured;
 use crate::export::profile::shot::ShotCorrection;
 use crate::figures::measured as figure;
@@ -18,29 +18,64 @@ use crate::paint::{self, PlotOptions};
 use crate::panes::context::PaneContext;
 use crate::panes::widgets;
 use crate::panes::widgets::table::DataTable;
+use crate::plot_item::PlotItem;
 use crate::scene::recorded::{RANK_CAUTION, RankedCamera};
-use crate::workspaces::PaneKind;
+use crate::theme::UNIT;
+use crate::workspaces::{PaneKind, Workspace};
 
 const CURVES: f32 = 300.0;
-const WIDTH: f32 = 720.0;
+/// Width from which on tables stand side by side.
+const TWO_COLUMNS: f32 = 1100.0;
+const GAP: f32 = 4.0 * UNIT;
+const LIGHT: &str = "The curves depend on it: a measured spectrum or the lamp's illuminant (A for halogen and tungsten, FL for \
+    fluorescent lamps); \"Daylight of unknown temperature\" outdoors only.";
 /// Cameras of the library that are named.
 const NEAREST: usize = 5;
 
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let measured = match answer(context) {
+    let shots = &context.scene.document.measurement.shots;
+    if let Some(shot) = shots.iter().find(|shot| shot.light.is_none()) {
+        heading(ui, &format!("Choose the light that {} was photographed under.", shot.file));
+        ui.add(Label::new(LIGHT).wrap());
+        return;
+    }
+    let (is_current, measured, recorded) = match answer(context) {
         Err(why) => return wrong(ui, &why, context),
         Ok(None) => {
             ui.weak("Computing…");
             return;
         }
-        Ok(Some(measured)) => measured,
+        Ok(Some(shown)) => shown,
     };
-    curves(ui, &measured, context);
-    for line in measured::conditions(&measured) {
-        ui.add(Label::new(RichText::new(line).small()).wrap());
+    if !is_current {
+        heading(ui, "Computing…");
     }
-    profile(ui, &measured, context);
-    identify(ui, context);
+    ui.add_enabled_ui(is_current, |ui| {
+        doubts(ui, &measured, context);
+        added(ui, &measured, context);
+        curves(ui, &measured, context);
+        for line in measured::conditions(&measured) {
+            ui.add(Label::new(RichText::new(line).small()).wrap());
+        }
+        if ui.available_width() < TWO_COLUMNS {
+            profile(ui, &measured, context);
+            identify(ui, &recorded, context);
+            return patches(ui, &measured, context);
+        }
+        ui.horizontal_top(|ui| {
+            let width = 0.5 * ui.available_width() - GAP;
+            ui.vertical(|ui| {
+                ui.set_max_width(width);
+                profile(ui, &measured, context);
+                identify(ui, &recorded, context);
+            });
+            ui.add_space(GAP);
+            ui.vertical(|ui| patches(ui, &measured, context));
+        });
+    });
+}
+
+fn patches(ui: &mut Ui, measured: &ChartMeasurement, context: &mut PaneContext<'_>) {
     heading(ui, "Patches");
     for (at, shot) in measured.shots.iter().enumerate() {
         let name = context.scene.document.measurement.shots.get(at).map_or("", |shot| shot.file.as_str());
@@ -54,8 +89,8 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     }
 }
 
-/// What was recovered from the pictures as they are; the last answer while another is computed.
-fn answer(context: &mut PaneContext<'_>) -> Result<Option<Arc<ChartMeasurement>>, String> {
+/// True with the results of the pictures as they are; false with the last ones while others are computed.
+fn answer(context: &mut PaneContext<'_>) -> Result<Option<(bool, Arc<ChartMeasurement>, RecordedSet)>, String> {
     let scene = context.scene;
     let measurement = &scene.document.measurement;
     let state = context.states.of::<State>();
@@ -66,16 +101,66 @@ fn answer(context: &mut PaneContext<'_>) -> Result<Option<Arc<ChartMeasurement>>
     };
     state.asked = Some((measurement.clone(), query.clone()));
     let made = context.later.ask(PaneKind::MEASURE, vec![query.clone()]).current()?;
-    if let Some(made) = made {
+    if let Some(made) = made
+        && state.shown.as_ref().is_none_or(|(of, ..)| *of != query)
+    {
         let made = (*made).clone().map_err(|error| error.to_string())?;
-        state.shown = Some((query, made));
+        let recorded = Shared::new(made.shots.iter().flat_map(|shot| shot.patches.clone()).collect());
+        (state.shown, state.is_accepted) = (Some((query.clone(), made, recorded)), false);
     }
-    Ok(state.shown.as_ref().map(|(_, made)| Arc::clone(made)))
+    let shown = state.shown.as_ref();
+    Ok(shown.map(|(of, made, recorded)| (*of == query, Arc::clone(made), recorded.clone())))
+}
+
+/// Results that can be put to use: those of the pictures as they are, with consent where they are doubtful.
+fn usable(context: &mut PaneContext<'_>) -> Result<Arc<ChartMeasurement>, &'static str> {
+    let measurement = &context.scene.document.measurement;
+    let State { shown, asked, is_accepted, .. } = context.states.of::<State>();
+    let asked = asked.as_ref().filter(|(of, _)| of == measurement).map(|(_, query)| query);
+    let Some((_, measured, _)) = shown.as_ref().filter(|(query, ..)| asked == Some(query)) else {
+        return Err("There is no result of these pictures, lights and charts");
+    };
+    if !*is_accepted && !measured::doubts(measured).is_empty() {
+        return Err("Read the warnings, and confirm there that light and chart are right");
+    }
+    Ok(Arc::clone(measured))
+}
+
+/// Warnings, and consent to what they are about.
+fn doubts(ui: &mut Ui, measured: &ChartMeasurement, context: &mut PaneContext<'_>) {
+    let doubts = measured::doubts(measured);
+    for doubt in &doubts {
+        ui.add(Label::new(RichText::new(format!("{doubt}.")).color(context.theme.warning)).wrap());
+    }
+    if !doubts.is_empty() {
+        let is_accepted = &mut context.states.of::<State>().is_accepted;
+        ui.checkbox(is_accepted, "Light and chart are right: use it all the same");
+    }
+}
+
+/// Ways on, once the camera is in the library.
+fn added(ui: &mut Ui, measured: &ChartMeasurement, context: &mut PaneContext<'_>) {
+    let document = context.scene.document;
+    let set = measured::set(&document.measurement, measured);
+    let Some(name) = document.same_set(&set).map(|at| document.own[at].name.clone()) else { return };
+    ui.horizontal_wrapped(|ui| {
+        ui.label(format!("{name} is one of your cameras."));
+        for workspace in [Workspace::Rank, Workspace::Compare] {
+            if ui.button(format!("Show in {}", workspace.label())).clicked() {
+                context.push(Command::Select(camera(&name)));
+                context.push(Command::Show(workspace));
+            }
+        }
+    });
+}
+
+fn camera(name: &str) -> PlotItem {
+    PlotItem::Sensor(SensorId { kind: SetKind::Camera, name: name.to_owned() })
 }
 
 fn curves(ui: &mut Ui, measured: &ChartMeasurement, context: &mut PaneContext<'_>) {
     heading(ui, "Curves");
-    let size = Vec2::new(ui.available_width().min(WIDTH), CURVES);
+    let size = Vec2::new(ui.available_width(), CURVES);
     let (place, _) = ui.allocate_exact_size(size, Sense::hover());
     let nearest = measured.nearest.first().and_then(|(name, _)| context.scene.sensor(SetKind::Camera, name).ok());
     let panel = figure::panel(measured, nearest.as_deref(), [size.x, size.y].map(f64::from));
@@ -101,15 +186,20 @@ fn curves(ui: &mut Ui, measured: &ChartMeasurement, context: &mut PaneContext<'_
 
 /// Button that puts what is shown to use.
 pub(super) fn add(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let State { shown, asked, .. } = context.states.of::<State>();
-    let asked = asked.as_ref().map(|(_, query)| query);
-    let Some((_, measured)) = shown.clone().filter(|(query, _)| asked == Some(query)) else { return };
+    let usable = usable(context);
     let hint = "As a camera with its uncertainties: it is compared and ranked, and saved from Data in all formats";
-    let words = "Add to the library and compare";
-    if ui.button(words).on_hover_text(hint).clicked() {
+    let button = ui.add_enabled(usable.is_ok(), Button::new("Add to the library and compare"));
+    let button = button.on_hover_text(hint).on_disabled_hover_text(usable.as_ref().err().map_or(hint, |why| *why));
+    if let Some(measured) = usable.ok().filter(|_| button.clicked()) {
         let scene = context.scene;
-        let sets = vec![measured::set(&scene.document.measurement, &measured)];
-        context.push(Action::Imported(ImportedAction::Import { sets, built_in: scene.catalog.names().clone() }));
+        let set = measured::set(&scene.document.measurement, &measured);
+        let (document, built_in) = (scene.document, scene.catalog.names().clone());
+        let name = document.same_set(&set).map_or_else(
+            || document.free_name(SetKind::Camera, &set.name, None, &built_in),
+            |at| document.own[at].name.clone(),
+        );
+        context.push(Action::Imported(ImportedAction::Import { sets: vec![set], built_in }));
+        context.push(Command::Select(camera(&name)));
         context.view.say("Added to your cameras, and compared.");
     }
 }
@@ -117,11 +207,18 @@ pub(super) fn add(ui: &mut Ui, context: &mut PaneContext<'_>) {
 fn profile(ui: &mut Ui, measured: &ChartMeasurement, context: &mut PaneContext<'_>) {
     heading(ui, "Profile");
     for (light, profile) in &measured.profiles {
-        ui.label(format!("Under {light}: ΔE*00, predicted by the curves and measured in the picture"));
+        ui.label(format!("Under {light}"));
         let table = measured::corrections(profile);
         ui.push_id(light, |ui| {
             DataTable::new(PaneKind::MEASURE, "Profile", &table).with_scrolling().show_compact(ui, context);
         });
+        if let Some(matrix) = measured::matrix(profile) {
+            ui.add(Label::new(RichText::new(format!("Matrix {}:", measured::MATRIX)).small()).wrap());
+            ui.add(Label::new(RichText::new(matrix).monospace()).selectable(true));
+        }
+    }
+    for words in [measured::COLUMNS, measured::UNCERTAINTY] {
+        ui.add(Label::new(RichText::new(words).small()).wrap());
     }
     if let Some(words) = measured::left_out(measured) {
         ui.add(Label::new(RichText::new(words).small()).wrap());
@@ -129,10 +226,13 @@ fn profile(ui: &mut Ui, measured: &ChartMeasurement, context: &mut PaneContext<'
     let camera = context.scene.document.measurement.camera.clone();
     let terms = "Fitted to a photograph of a chart by its owner";
     let correction = ShotCorrection { camera: &camera, model: None, terms, profiles: &measured.profiles };
+    let usable = usable(context);
     ui.horizontal_wrapped(|ui| {
         for form in ShotCorrection::FORMS {
             let (label, why) = form.words();
-            if !ui.button(label).on_hover_text(format!("{why}: the 3×3 matrix fitted to the patches")).clicked() {
+            let hint = format!("{why}: the 3×3 matrix fitted to the patches");
+            let button = ui.add_enabled(usable.is_ok(), Button::new(label)).on_hover_text(hint);
+            if !button.on_disabled_hover_text(usable.as_ref().err().map_or("", |why| *why)).clicked() {
                 continue;
             }
             match correction.written(form) {
@@ -143,16 +243,15 @@ fn profile(ui: &mut Ui, measured: &ChartMeasurement, context: &mut PaneContext<'
     });
 }
 
-/// Cameras whose tables explain the values of the first picture best.
-fn identify(ui: &mut Ui, context: &mut PaneContext<'_>) {
+/// Cameras whose tables explain the values of all pictures best; without those recovered from them.
+fn identify(ui: &mut Ui, recorded: &RecordedSet, context: &mut PaneContext<'_>) {
     let scene = context.scene;
-    let Some(shot) = scene.document.measurement.shots.first() else { return };
-    let set = scene.recorded_of(shot);
-    let Ok(query) =
-        set.and_then(|set| scene.recorded_ranking(&set, Freedom::default(), &[]).map_err(|error| error.to_string()))
-    else {
-        return;
-    };
+    let Document { own, measurement, .. } = scene.document;
+    let is_own =
+        |name: &str| own.iter().any(|s| s.is_recovered() && s.name == name && name.starts_with(&measurement.camera));
+    let names: Vec<String> =
+        scene.entries(SetKind::Camera).map(|entry| entry.name).filter(|name| !is_own(name)).collect();
+    let Ok(query) = scene.recorded_ranking(recorded, Freedom::default(), &names) else { return };
     let Ok(Some(shown)) = context.later.ask("Measure: nearest cameras", vec![query]).last() else { return };
     let Ok(ranked) = shown.answer.as_ref().as_ref() else { return };
     heading(ui, "Which table is this camera?");

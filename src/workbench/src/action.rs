@@ -290,6 +290,7 @@ impl ImportedAction {
     pub fn name(&self) -> String {
         match self {
             Self::Import { sets, .. } => match sets.as_slice() {
+                [one] if one.is_recovered() => format!("Add camera {}", one.name),
                 [one] => format!("Open {}", one.name),
                 many => format!("Open {} sets", many.len()),
             },
@@ -346,7 +347,7 @@ fn add(document: &mut Document, set: &ImportedSet, built_in: &BuiltInNames) -> S
         return set;
     };
     let name = document.own[index].name.clone();
-    if set.fingerprint != document.own[index].fingerprint {
+    if set.is_recovered() || set.fingerprint != document.own[index].fingerprint {
         replace(document, &name, &ImportedSet { name: name.clone(), ..set.clone() }, built_in);
     }
     document.own[index].clone()

@@ -9,7 +9,7 @@ use chromascope_core::query::{Ask as _, ChartRecoveryQuery, ChartShot, Direct, S
 use chromascope_core::recovery::{ChartRecovery, FitSource, RecoveryError, Shot, ShotProfile};
 use chromascope_core::spectral::{GridSpectrum, Quantity};
 
-use super::support::{A, Conditions, D65, EVEN, cameras, library_without, shot};
+use super::support::{A, Conditions, D65, EVEN, cameras, chart, library_without, shot};
 use crate::support::{CIE_1931, dataset, kelvin, light, sensor};
 
 const QUIET: Conditions = Conditions { noise: 1e-4, stated: 2e-3, ..EVEN };
@@ -64,6 +64,10 @@ fn query(shots: Vec<ChartShot>) -> ChartRecoveryQuery {
         shots,
         daylight: Shared::new(DaylightBasis::new(&dataset("illuminants/cie_daylight_basis.csv")).unwrap()),
         other_lights: vec![("FL2".to_owned(), Shared::new(second_lamp()))],
+        other_charts: vec![
+            ("Ohta".to_owned(), Shared::new(crate::support::chart())),
+            ("BabelColor".to_owned(), Shared::new(chart())),
+        ],
         observer: Shared::new(sensor(CIE_1931)),
     }
 }
@@ -79,7 +83,8 @@ fn d700(light: &GridSpectrum) -> Shot {
 }
 
 fn given(shot: Shot, light: &str, is_daylight: bool) -> ChartShot {
-    ChartShot { shot: Shared::new(shot), is_daylight, light: light.to_owned() }
+    let [light, picture] = [light.to_owned(), format!("under_{light}.dng")];
+    ChartShot { shot: Shared::new(shot), is_daylight, light, chart: "BabelColor".to_owned(), picture }
 }
 
 #[test]
@@ -111,4 +116,27 @@ fn another_light_is_refused_by_name() {
     let wrong = d700(&second_lamp()).under(&light(D65));
     let error = (*Direct.ask(&query(vec![given(wrong, "D65", false)]))).clone().unwrap_err();
     assert!(matches!(&error, RecoveryError::Contradicted { what, .. } if what == "the light FL2"), "{error}");
+}
+
+/// Together with a good picture the wrong one would be fitted by curves that no camera has.
+#[test]
+fn the_light_of_each_of_several_pictures_is_judged_by_itself() {
+    let wrong = given(d700(&second_lamp()).under(&light(D65)), "D65", false);
+    let good = given(d700(&light(A)), "A", false);
+    let error = (*Direct.ask(&query(vec![good, wrong]))).clone().unwrap_err();
+    let RecoveryError::Picture { picture, reason } = &error else { panic!("{error}") };
+    assert_eq!(picture, "under_D65.dng");
+    assert!(matches!(&**reason, RecoveryError::Contradicted { what, .. } if what == "the light FL2"), "{error}");
+}
+
+#[test]
+fn another_edition_of_the_chart_is_named_where_it_fits_better() {
+    let cameras = cameras();
+    let own = &cameras.iter().find(|(name, _)| name == "nikon_d700").unwrap().1;
+    for (chart, better) in [(None, None), (Some("charts/colorchecker_24_ohta_1997.csv"), Some("Ohta"))] {
+        let with = Conditions { noise: 0.002, stated: 0.01, chart, ..EVEN };
+        let recorded = given(shot(own, &light(D65), with, &mut SplitMix64::new(2)), "D65", false);
+        let found = (*Direct.ask(&query(vec![recorded]))).clone().unwrap();
+        assert_eq!((found.better_chart.as_deref(), found.charts.as_slice()), (better, &["BabelColor".to_owned()][..]));
+    }
 }

@@ -14,6 +14,7 @@ use super::curves::RecoveredCurves;
 use super::prior::{Library, Prior};
 use crate::camera::recorded::{Exclusion, RecordedPatch};
 use crate::math::least_squares::FitError;
+use crate::patch_set::PatchSet;
 use crate::spectral::GridSpectrum;
 use crate::units::{bits, hash_by};
 use problem::{Problem, Solution};
@@ -74,6 +75,14 @@ impl Shot {
         shot
     }
 
+    /// Shot with these values, taken to be recorded of a chart with other reflectances, patch by patch; none with another number of patches.
+    pub fn of_chart(&self, chart: &PatchSet) -> Option<Self> {
+        let mut shot = self.clone();
+        let patches = shot.patches.iter_mut().zip(chart.patches());
+        patches.for_each(|(patch, other)| patch.radiance = other.grid.times(&self.light));
+        (chart.patches().len() == self.patches.len()).then_some(shot)
+    }
+
     /// The chart turned by 180°: the values in reverse.
     #[must_use]
     pub fn turned(&self) -> Self {
@@ -107,6 +116,8 @@ pub enum RecoveryError {
     NoPrior,
     #[error("no matrix can be fitted to the patches: {0}")]
     Correction(#[from] FitError),
+    #[error("{reason} ({picture} by itself)")]
+    Picture { picture: String, reason: Box<Self> },
 }
 
 /// Sensitivities recovered from charts.
@@ -169,14 +180,23 @@ impl ChartRecovery {
         others: impl IntoIterator<Item = (String, &'a [Shot])>,
     ) -> Result<Self, RecoveryError> {
         let own = Self::unchecked(library, shots)?;
-        // Where charts differ by more than the stated noise, odds by that noise are too great.
-        let odds = |other: Self| (other.log_posterior - own.log_posterior) / other.noise_ratio.max(1.0).powi(2);
-        let others =
-            others.into_iter().filter_map(|(what, shots)| Some((what, odds(Self::unchecked(library, shots).ok()?))));
-        match others.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, by)| *by > CONTRADICTED) {
+        match own.contradiction(library, others) {
             Some((what, by)) => Err(RecoveryError::Contradicted { what, by }),
             None => own.judged(),
         }
+    }
+
+    /// Most probable of the others, if by more than e¹⁵, with the logarithm of its odds.
+    pub fn contradiction<'a>(
+        &self,
+        library: &Library,
+        others: impl IntoIterator<Item = (String, &'a [Shot])>,
+    ) -> Option<(String, f64)> {
+        // Where charts differ by more than the stated noise, odds by that noise are too great.
+        let odds = |other: Self| (other.log_posterior - self.log_posterior) / other.noise_ratio.max(1.0).powi(2);
+        let others =
+            others.into_iter().filter_map(|(what, shots)| Some((what, odds(Self::unchecked(library, shots).ok()?))));
+        others.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, by)| *by > CONTRADICTED)
     }
 
     /// Recovers under daylight of unknown temperature: `at` gives the shots under daylight of a reciprocal temperature in mireds, with

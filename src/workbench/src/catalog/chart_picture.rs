@@ -1,6 +1,7 @@
 //! Linear pictures of charts: DNG, and 16-bit TIFF and PNG.
 
 use std::io::Cursor;
+use std::path::Path;
 
 use chromascope_core::camera::chart_grid::{ChartGrid, ChartGridError, PatchMean};
 use chromascope_core::camera::chart_search::{CHART_SIZE, FoundChart, find_chart, refine_chart};
@@ -18,6 +19,29 @@ use super::recorded::{Levels, RawRow, lit};
 use crate::document::measurement::MeasuredPatch;
 use crate::document::{CHART, SetKind};
 use crate::results::Results;
+
+/// Endings of pictures that are read.
+const READ: [&str; 4] = ["dng", "tif", "tiff", "png"];
+/// Endings of developed pictures, and of raw files of makers: of these reason and remedy are told.
+const DEVELOPED: [&str; 6] = ["jpg", "jpeg", "heic", "heif", "avif", "webp"];
+const RAW: [&str; 18] = [
+    "nef", "nrw", "cr2", "cr3", "crw", "arw", "sr2", "raf", "orf", "rw2", "rwl", "pef", "srw", "3fr", "fff", "iiq",
+    "x3f", "kdc",
+];
+
+/// Endings of all pictures.
+pub fn pictures() -> impl Iterator<Item = &'static str> {
+    READ.into_iter().chain(DEVELOPED).chain(RAW)
+}
+
+/// True for the ending of a picture.
+pub fn is_picture(path: &Path) -> bool {
+    ends_in(path, pictures())
+}
+
+fn ends_in(path: &Path, mut endings: impl Iterator<Item = &'static str>) -> bool {
+    path.extension().is_some_and(|own| endings.any(|ending| own.eq_ignore_ascii_case(ending)))
+}
 
 const MAX_BYTES: u64 = 1 << 30;
 /// Maximum number of bytes of what stands beside its pixels, such as a color profile.
@@ -40,6 +64,10 @@ pub enum ChartPictureError {
     Tag(u16),
     #[error("the picture is {0}; save it as linear 16-bit RGB, without a tone curve")]
     Depth(&'static str),
+    #[error(
+        "a developed picture such as a JPEG: its tone curve hides the raw values. Photograph raw and convert to DNG with Adobe DNG Converter or dnglab, both free of charge"
+    )]
+    Developed,
     #[error(transparent)]
     Grid(#[from] ChartGridError),
 }
@@ -55,6 +83,18 @@ enum Pixels {
 }
 
 impl ChartPicture {
+    /// [`Self::decode`], with the remedy where the ending is that of a picture of another kind.
+    pub fn read(path: &Path, bytes: &[u8]) -> Result<Self, ChartPictureError> {
+        Self::decode(bytes).map_err(|error| match error {
+            ChartPictureError::Raw(RawImageError::OtherRaw { .. }) => error,
+            _ if ends_in(path, RAW.into_iter()) => {
+                RawImageError::OtherRaw { format: "the raw format of this maker" }.into()
+            }
+            _ if ends_in(path, DEVELOPED.into_iter()) => ChartPictureError::Developed,
+            _ => error,
+        })
+    }
+
     /// Decodes a DNG, or a TIFF or PNG of 16 bits or 32-bit floats a channel.
     pub fn decode(bytes: &[u8]) -> Result<Self, ChartPictureError> {
         match RawImage::read(bytes) {

@@ -9,20 +9,10 @@ use chromascope_core::spectral::{GridSpectrum, Quantity, SpectralDistribution};
 use chromascope_figure::Image;
 use spectral_file::{Certainty, ReadOptions, Role};
 
-use super::chart_picture::ChartPicture;
+use super::chart_picture::{ChartPicture, is_picture};
 use super::file_store::{FileStore, FromFile};
 use super::recorded::{self, Levels, RawRow};
 use crate::format::{file_name, io_reason};
-
-/// Endings of pictures; of those that cannot be read the reason and the remedy are told.
-pub const PICTURES: [&str; 18] = [
-    "dng", "tif", "tiff", "png", "jpg", "jpeg", "heic", "nef", "nrw", "cr2", "cr3", "crw", "arw", "raf", "orf", "rw2",
-    "pef", "iiq",
-];
-/// True for the ending of a picture.
-pub fn is_picture(path: &Path) -> bool {
-    path.extension().is_some_and(|own| PICTURES.iter().any(|ending| own.eq_ignore_ascii_case(ending)))
-}
 
 const MAX_BYTES: u64 = 1 << 30;
 /// Longest side of a picture as it is shown.
@@ -92,7 +82,7 @@ fn read(path: &Path) -> Result<RecordedFile, String> {
         return Err(failed(format!("larger than {} MB; cut or bin the picture", MAX_BYTES >> 20)));
     }
     let content = if is_picture(path) {
-        let picture = ChartPicture::decode(&bytes).map_err(|error| failed(error.to_string()))?;
+        let picture = ChartPicture::read(path, &bytes).map_err(|error| failed(error.to_string()))?;
         let (shown, found) = (picture.preview(SHOWN), picture.find_chart());
         RecordedContent::Picture(ChartPhoto { picture, shown, found })
     } else {

@@ -18,9 +18,8 @@ use super::arguments::{Form, Per, form, values};
 use super::error::{CliError, Result, refused};
 use super::outputs::{self, put};
 use super::request::{Request, in_file};
-use crate::catalog::chart_picture::ChartPicture;
+use crate::catalog::chart_picture::{ChartPicture, is_picture};
 use crate::catalog::recorded::{self, Levels, RawRow, RawTable, lit};
-use crate::catalog::recorded_store::is_picture;
 use crate::document::PHOTOGRAPHED_CHART;
 use crate::document::imported::Role;
 use crate::document::start::Start;
@@ -279,7 +278,7 @@ pub(super) fn picture(
     corners: &[[f64; 2]],
 ) -> Result<(ChartPicture, [[f64; 2]; 4])> {
     let bytes = request.bytes(path)?;
-    let picture = ChartPicture::decode(&bytes).map_err(|error| in_file(path, error))?;
+    let picture = ChartPicture::read(path, &bytes).map_err(|error| in_file(path, error))?;
     let named = <[[f64; 2]; 4]>::try_from(corners).ok();
     let why = "no chart of 24 patches was found for certain; name its corners with --corners";
     let corners = named.or_else(|| picture.find_chart()).ok_or_else(|| in_file(path, why))?;

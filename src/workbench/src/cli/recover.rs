@@ -40,11 +40,14 @@ enum From {
     Narrowband(narrow_band::NarrowBandArguments),
 }
 
+/// Name of a camera that has none.
+const UNNAMED: &str = "Recovered camera";
+
 #[derive(Debug, Args)]
 struct Written {
-    /// Name of the camera in the file
-    #[arg(long, value_name = "NAME", default_value = "Recovered camera")]
-    title: String,
+    /// Name of the camera in the file [default: that of a DNG, else "Recovered camera"]
+    #[arg(long, value_name = "NAME")]
+    title: Option<String>,
     /// Output file of the curves, .csv or .json
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -102,7 +105,7 @@ pub(super) fn run(arguments: &RecoverArguments, _: &ArgMatches) -> Result<()> {
 }
 
 /// Writes the curves where they are wanted.
-fn put(curves: &RecoveredCurves, wanted: &Written, comments: &[(String, String)]) -> Result<()> {
+fn put(title: &str, curves: &RecoveredCurves, wanted: &Written, comments: &[(String, String)]) -> Result<()> {
     let Some(path) = &wanted.out else { return Ok(()) };
     let format = wanted.format()?;
     let standard = curves.standard().map(|standard| Uncertainty { standard, coverage: 2.0 });
@@ -115,10 +118,10 @@ fn put(curves: &RecoveredCurves, wanted: &Written, comments: &[(String, String)]
     };
     let traces: Vec<Trace<'_>> = ["red", "green", "blue"].into_iter().zip(0..3).map(trace).collect();
     let created = now();
-    let (manufacturer, model) = maker_and_model(&wanted.title);
+    let (manufacturer, model) = maker_and_model(title);
     let content = Content::Camera { channels: [0, 1, 2], per_photon: Some(false), manufacturer, model };
     let sheet = Sheet {
-        title: &wanted.title,
+        title,
         content,
         curves: &traces,
         covariance: Some(&covariance),
@@ -129,8 +132,8 @@ fn put(curves: &RecoveredCurves, wanted: &Written, comments: &[(String, String)]
     let refuse = |error: spectral_file::write::WriteError| CliError::File(format!("{}: {error}", path.display()));
     if format.is_csv() {
         let mut prepared = Prepared::new(&sheet, Grid::Native).map_err(refuse)?;
-        return written::put(&wanted.title, path, (format, true), Some(&mut prepared), None);
+        return written::put(title, path, (format, true), Some(&mut prepared), None);
     }
     let text = write(&sheet, format, Grid::Native).map_err(refuse)?;
-    written::put(&wanted.title, path, (format, true), None, Some(&text))
+    written::put(title, path, (format, true), None, Some(&text))
 }

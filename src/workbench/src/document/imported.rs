@@ -143,6 +143,11 @@ impl Hash for ImportedSet {
 }
 
 impl ImportedSet {
+    /// True for a camera that was recovered from pictures here, not read from a file.
+    pub fn is_recovered(&self) -> bool {
+        self.role == Role::Camera && self.path.is_none() && self.fingerprint.is_none() && self.covariance.is_some()
+    }
+
     /// The curves that its role uses, in nanometers and, for reflectances, as fractions.
     pub fn curves_in_nm(&self) -> Result<Vec<(String, SpectralDistribution)>, DistributionError> {
         self.used()

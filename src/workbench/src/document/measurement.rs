@@ -25,13 +25,20 @@ pub struct MeasuredShot {
     /// Name of the picture.
     pub file: String,
     pub chart: String,
-    /// The light; none for daylight of unknown temperature.
+    /// The light; none until it is chosen.
     pub light: Option<Light>,
-    /// Of a light by formula, in kelvins.
-    pub temperature_k: f64,
+    /// Of a light by formula, in kelvins; none for daylight of unknown temperature.
+    pub temperature_k: Option<f64>,
     /// Corners of the grid of patches in pixels, around the chart from the first patch.
     pub corners: [[f64; 2]; 4],
     pub patches: Vec<MeasuredPatch>,
+}
+
+impl MeasuredShot {
+    /// True under daylight of unknown temperature.
+    pub fn is_daylight(&self) -> bool {
+        self.light == Some(Light::Daylight) && self.temperature_k.is_none()
+    }
 }
 
 /// Means of a patch in the picture, linear, black at 0.

@@ -1,5 +1,6 @@
 //! A camera measured from a chart in tables and sentences, for the window and the command line, and as a set.
 
+use chromascope_core::glam::DVec3;
 use chromascope_core::query::{ChartMeasurement, ErrorSummary};
 use chromascope_core::recovery::{ChartRecovery, FitSource, Shot, ShotProfile};
 use chromascope_figure::{Cell, Column, Table};
@@ -8,6 +9,7 @@ use crate::document::imported::{
     Covariance, ImportOverrides, ImportedCurve, ImportedSet, ReadAs, Role, Uncertainty, WavelengthUnit,
 };
 use crate::document::measurement::Measurement;
+use crate::export::profile::shot;
 use crate::format::fixed;
 
 /// How the curves were made.
@@ -38,9 +40,9 @@ pub fn curves(recovery: &ChartRecovery) -> Table {
 
 /// Recorded values of a shot with residuals and brightnesses.
 pub fn patches(shot: &Shot, recovery: &ChartRecovery, at: usize) -> Table {
-    let heads = ["red", "green", "blue"].map(|name| column(name, 6, 4)).into_iter();
-    let heads = heads.chain(["R %", "G %", "B %"].map(|name| column(name, 6, 2))).chain([column("brightness", 10, 3)]);
-    let mut table = Table::new(heads);
+    let residuals = ["red, %", "green, %", "blue, %"].map(|name| column(name, 8, 2));
+    let heads = ["red", "green", "blue"].map(|name| column(name, 6, 4)).into_iter().chain(residuals);
+    let mut table = Table::new(heads.chain([column("brightness", 10, 3)]));
     for (index, patch) in shot.patches.iter().enumerate() {
         let recorded = patch.rgb.map(|signal| Cell::from(signal.value().ok()));
         let residuals = recovery.residuals.get(at).and_then(|of| of.get(index)).copied().unwrap_or_default();
@@ -51,27 +53,81 @@ pub fn patches(shot: &Shot, recovery: &ChartRecovery, at: usize) -> Table {
     table
 }
 
-/// Noise, glare, brightness, unlikeness and daylight in sentences.
+/// Meaning of the columns of [`corrections`].
+pub const COLUMNS: &str = "ΔE*00, mean and largest over the patches. Predicted: of the curves' values; measured: of the recorded values; \
+    left out: of each patch's recorded values through a fit to all others (leave-one-out).";
+/// Meaning of ± and of ranks.
+pub const UNCERTAINTY: &str = "± is expanded (k = 2): the value is within it in about 95 of 100 cases. In Rank the ± of a metric is that of these \
+    curves, and a rank is a range where cameras do not differ at 95 %.";
+/// Description of [`matrix`].
+pub const MATRIX: &str = "from raw RGB balanced to white = 1 to XYZ, fitted to the recorded patches. ICC and CLF hold this matrix; in the DCP \
+    it is the ForwardMatrix (adapted to D50), and with the balance the ColorMatrix";
+/// Distances above which a camera is very unlike the library's: from their mean in standard deviations, and from the nearest table.
+const UNLIKE: [f64; 2] = [1.2, 0.2];
+/// Temperature in kelvins below which there is no daylight; doubtful from one standard deviation above it.
+const WARMEST: f64 = 4000.0;
+/// Excess of a mean measured ΔE\*00 over the predicted one that is no noise, and relative to it.
+const EXCESS: [f64; 2] = [0.5, 0.4];
+
+/// Charts, noise, glare, brightness, unlikeness and daylight in sentences.
 pub fn conditions(measured: &ChartMeasurement) -> Vec<String> {
     let recovery = &measured.recovery;
     let glare = recovery.glare.map(|glare| fixed(100.0 * glare, 2)).join(", ");
-    let unlikeness = fixed(recovery.unlikeness, 2);
-    let mut lines = vec![format!(
-        "Residuals are {} times the noise; glare {glare} % of the brightest patch; brightness varies by {} %",
-        fixed(recovery.noise_ratio, 2),
-        fixed(100.0 * recovery.unevenness, 1)
-    )];
-    lines.push(if recovery.unlikeness > 1.0 {
+    let [ratio, unlikeness] = [recovery.noise_ratio, recovery.unlikeness].map(|value| fixed(value, 2));
+    let uneven = fixed(100.0 * recovery.unevenness, 1);
+    let widened = "; its bands are widened by that factor, and may still be too narrow";
+    let [what, widened] = if recovery.unlikeness > 1.0 { ["unlike", widened] } else { ["like", ""] };
+    let mut lines = vec![
+        format!("Chart: {}", measured.charts.join(", ")),
         format!(
-            "This camera is unlike those of the library (distance {unlikeness}, where 1 is expected at most): its bands are widened by that factor, and may still be too narrow"
-        )
-    } else {
-        format!("The camera is like those of the library: distance {unlikeness}, where 1 is expected at most")
-    });
+            "Residuals are {ratio} times the noise; glare {glare} % of the brightest patch; brightness varies by {uneven} %"
+        ),
+        format!(
+            "The camera is {what} those of the library: distance {unlikeness}, where 1 is expected at most{widened}"
+        ),
+    ];
+    let better = |chart| {
+        format!("\"{chart}\" fits clearly better than the chart that was named: choose it if it is that edition")
+    };
+    lines.extend(measured.better_chart.as_ref().map(better));
     lines.extend(measured.daylight.map(|[kelvin, deviation]| {
         format!("Daylight of {} K ± {} K (k = 2)", fixed(kelvin, 0), fixed(2.0 * deviation, 0))
     }));
     lines
+}
+
+/// Signs that light or chart are not those named: where there are any, nothing is made of a measurement without consent.
+pub fn doubts(measured: &ChartMeasurement) -> Vec<String> {
+    let mut doubts = Vec::new();
+    if let Some([kelvin, deviation]) = measured.daylight.filter(|[kelvin, deviation]| kelvin - deviation < WARMEST) {
+        let [kelvin, by] = [kelvin, 2.0 * deviation].map(|value| fixed(value, 0));
+        doubts.push(format!(
+            "Daylight of {kelvin} K ± {by} K: this is likely no daylight, which is above {WARMEST} K; name the light"
+        ));
+    }
+    let nearest = measured.nearest.first().map_or(0.0, |(_, distance)| *distance);
+    if measured.recovery.unlikeness > UNLIKE[0] || nearest > UNLIKE[1] {
+        doubts.push(format!(
+            "Very unlike every camera of the library (the nearest table differs by {} %): the light or the chart is likely another than named",
+            fixed(100.0 * nearest, 0)
+        ));
+    }
+    for (light, profile) in &measured.profiles {
+        let mean = |of: &[Option<f64>]| ErrorSummary::new(of).map_or(0.0, |found| found.mean);
+        let fit = &profile.fits[0][0];
+        let [predicted, measured] = [mean(&fit.predicted), mean(&fit.measured)];
+        if measured - predicted > EXCESS[0].max(EXCESS[1] * predicted) {
+            let [predicted, measured] = [predicted, measured].map(|mean| fixed(mean, 2));
+            doubts.push(format!("Under {light} the measured ΔE*00 ({measured}) is far above the predicted one ({predicted}): light, chart or linearity is likely wrong"));
+        }
+    }
+    doubts
+}
+
+/// The matrix of profile files under a light, in rows.
+pub fn matrix(profile: &ShotProfile) -> Option<String> {
+    let row = |row: DVec3| row.to_array().map(|value| format!("{:>8}", fixed(value, 4))).join(" ");
+    shot::matrix(profile).map(|matrix| [0, 1, 2].map(|at| row(matrix.row(at))).join("\n"))
 }
 
 /// ΔE\*00 of patches that were predicted from all others, in a sentence.
@@ -84,7 +140,7 @@ pub fn left_out(measured: &ChartMeasurement) -> Option<String> {
 
 /// ΔE\*00 of the corrections under a light: mean and largest.
 pub fn corrections(profile: &ShotProfile) -> Table {
-    let heads = ["predicted", "largest", "measured", "largest", "excluded", "largest"];
+    let heads = ["predicted", "largest", "measured", "largest", "left out", "largest"];
     let mut table = Table::new(heads.map(|head| column(head, 9, 2)));
     let mut names = Vec::new();
     for fit in profile.fits.iter().flatten() {
@@ -113,7 +169,7 @@ pub fn set(measurement: &Measurement, measured: &ChartMeasurement) -> ImportedSe
     };
     let files: Vec<&str> = measurement.shots.iter().map(|shot| shot.file.as_str()).collect();
     let lights: Vec<&str> = measured.profiles.iter().map(|(light, _)| light.as_str()).collect();
-    let source = format!("{} under {}", files.join(", "), lights.join(", "));
+    let source = format!("{} under {}, chart {}", files.join(", "), lights.join(", "), measured.charts.join(", "));
     let size = 3 * curves.wavelengths_nm.len();
     ImportedSet {
         name: format!("{} (measured)", measurement.camera),

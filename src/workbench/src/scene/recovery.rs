@@ -9,9 +9,9 @@ use chromascope_core::spectral::{GridSpectrum, Sensor};
 
 use super::metrics::SetPlace;
 use super::{Result, Scene, SceneError};
-use crate::catalog::load::{SensorQuery, StandardsQuery};
+use crate::catalog::load::{PatchesQuery, SensorQuery, StandardsQuery};
 use crate::catalog::{Catalog, Entry};
-use crate::document::{CIE_1931, Light, SetKind};
+use crate::document::{CIE_1931, SetKind};
 
 /// Lights that a shot is compared with, where another than the one named would explain it.
 const OTHER_LIGHTS: [&str; 7] = ["A", "D50", "D55", "D65", "D75", "FL2", "FL11"];
@@ -21,6 +21,7 @@ const OTHER_LIGHTS: [&str; 7] = ["A", "D50", "D55", "D65", "D75", "FL2", "FL11"]
 pub struct MeasuredCameraQuery {
     pub shots: Vec<ChartShot>,
     cameras: Vec<SetPlace>,
+    charts: Vec<SetPlace>,
     other_lights: Vec<(String, Shared<GridSpectrum>)>,
     observer: Shared<Sensor>,
 }
@@ -34,7 +35,12 @@ impl Query for MeasuredCameraQuery {
         let standards = (*ask.ask(&StandardsQuery)).clone();
         let standards = standards.map_err(|error| SceneError::Load { name: "daylight".to_owned(), error })?;
         let sites: Vec<f64> = (0..41).map(|i| 380.0 + 10.0 * f64::from(i)).collect();
+        let chart = |SetPlace { name, place, .. }: &SetPlace| {
+            let patches = (*ask.ask(&PatchesQuery { place: place.clone(), names: None })).clone();
+            Some((name.clone(), patches.ok()?))
+        };
         let query = ChartRecoveryQuery {
+            other_charts: self.charts.iter().filter_map(chart).collect(),
             library: Shared::new(library(&self.cameras, &sites, ask)?),
             shots: self.shots.clone(),
             daylight: Shared::new(standards.daylight.clone()),
@@ -75,18 +81,19 @@ impl Scene<'_> {
     ) -> Result<ChartShot> {
         let light = (*self.light()?.grid).clone();
         let name = if is_daylight { "daylight".to_owned() } else { self.light_name() };
-        Ok(ChartShot { shot: Shared::new(Shot::new(patches, light, pixels, relative)), is_daylight, light: name })
+        let (chart, picture) = (self.document.chart.clone(), String::new());
+        let shot = Shared::new(Shot::new(patches, light, pixels, relative));
+        Ok(ChartShot { shot, is_daylight, light: name, chart, picture })
     }
 
     /// Question for the sensitivities of the camera that recorded some shots.
     pub fn measured_camera(&self, shots: Vec<ChartShot>) -> Result<MeasuredCameraQuery> {
-        // A light by formula may be any: there is no list of what it could be mistaken for.
-        let lights = if matches!(self.document.light, Light::Set(_)) { &OTHER_LIGHTS[..] } else { &[] };
         let other = |name: &&str| Ok(((*name).to_owned(), self.illuminant(name)?.grid));
         Ok(MeasuredCameraQuery {
             shots,
             cameras: built_in_cameras(self.catalog),
-            other_lights: lights.iter().map(other).collect::<Result<_>>()?,
+            charts: self.places(SetKind::Chart).collect(),
+            other_lights: OTHER_LIGHTS.iter().map(other).collect::<Result<_>>()?,
             observer: self.sensor(SetKind::Observer, CIE_1931)?,
         })
     }

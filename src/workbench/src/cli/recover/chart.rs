@@ -8,9 +8,9 @@ use chromascope_core::query::{Ask as _, ChartMeasurement, ChartShot};
 use clap::Args;
 use spectral_file::Values;
 
-use super::{Written, put};
+use super::{UNNAMED, Written, put};
+use crate::catalog::chart_picture::is_picture;
 use crate::catalog::recorded::Levels;
-use crate::catalog::recorded_store::is_picture;
 use crate::cli::arguments::values;
 use crate::cli::error::{CliError, Result, refused};
 use crate::cli::identify::{corner, picture, recorded_table};
@@ -23,12 +23,10 @@ use crate::export::profile::CorrectionForm;
 use crate::export::profile::shot::ShotCorrection;
 use crate::format::{display_path, fixed};
 use crate::results::Results;
-use crate::scene::measurement::RELATIVE;
+use crate::scene::measurement::{RELATIVE, STAND_IN_K};
 use crate::scene::{Scene, SceneError};
 
 const NEAREST: usize = 5;
-/// Light that daylight of unknown temperature is looked for from.
-const STAND_IN_K: f64 = 6500.0;
 
 #[derive(Debug, Args)]
 pub(super) struct ChartArguments {
@@ -59,6 +57,9 @@ pub(super) struct ChartArguments {
     /// Profile by the matrix that is fitted to the recorded patches, .dcp (of one light or two), .icc or .clf
     #[arg(long, value_name = "FILE")]
     profile: Option<PathBuf>,
+    /// Writes --out and --profile though a warning says that light or chart are likely others
+    #[arg(long)]
+    accept_warnings: bool,
     /// For dcp: the camera model as its raw files state it [default: by the table of names from --title]
     #[arg(long, value_name = "MODEL", requires = "profile")]
     model: Option<String>,
@@ -81,7 +82,8 @@ pub(super) fn run(arguments: &ChartArguments) -> Result<()> {
     }
     let (written, form) = (&arguments.written, profile_form(arguments)?);
     written.format()?;
-    let shots = shots(&mut request, arguments)?;
+    let (shots, of_file) = shots(&mut request, arguments)?;
+    let camera = written.title.clone().or(of_file).unwrap_or_else(|| UNNAMED.to_owned());
     let outputs = written.out.as_deref().into_iter().chain(arguments.profile.as_deref());
     check(outputs, &request.inputs(), written.force)?;
     let results = Results::default();
@@ -93,15 +95,26 @@ pub(super) fn run(arguments: &ChartArguments) -> Result<()> {
         other => other.into(),
     })?;
     show(&text(&found))?;
+    let is_refused = !arguments.accept_warnings && (written.out.is_some() || form.is_some());
+    if let Some(doubt) = measured::doubts(&found).first().filter(|_| is_refused) {
+        let why = format!("{doubt}. Nothing was written; with --accept-warnings it is");
+        return Err(CliError::File(format!("{}: {why}", files.join(", "))));
+    }
     let lights: Vec<&str> = found.profiles.iter().map(|(light, _)| light.as_str()).collect();
-    let method = format!("raw values of {} patches under {}", found.shots[0].patches.len(), lights.join(", "));
-    put(&found.recovery.curves, written, &written.provenance(&files.join(", "), &method, measured::REDUCTION))?;
+    let (count, charts) = (found.shots[0].patches.len(), found.charts.join(", "));
+    let method = format!("raw values of {count} patches of {charts} under {}", lights.join(", "));
+    put(
+        &camera,
+        &found.recovery.curves,
+        written,
+        &written.provenance(&files.join(", "), &method, measured::REDUCTION),
+    )?;
     let (Some(path), Some(form)) = (&arguments.profile, form) else { return Ok(()) };
     let license = written.license.as_deref().unwrap_or("the user's own");
     let author = written.author.as_ref().map_or_else(String::new, |author| format!(" by {author}"));
     let terms = format!("Fitted to a photograph of a chart{author}; license: {license}");
-    let (camera, model) = (written.title.as_str(), arguments.model.as_deref());
-    let correction = ShotCorrection { camera, model, terms: &terms, profiles: &found.profiles };
+    let (model, profiles) = (arguments.model.as_deref(), found.profiles.as_slice());
+    let correction = ShotCorrection { camera: &camera, model, terms: &terms, profiles };
     let bytes = correction.written(form)?;
     stream(Some(path), |out| Ok(out.write_all(&bytes)?))
 }
@@ -116,10 +129,10 @@ fn profile_form(arguments: &ChartArguments) -> Result<Option<CorrectionForm>> {
     }
 }
 
-/// The recording of each table under its light.
-fn shots(request: &mut Request, arguments: &ChartArguments) -> Result<Vec<ChartShot>> {
+/// The recording of each table under its light, and the camera that a picture states.
+fn shots(request: &mut Request, arguments: &ChartArguments) -> Result<(Vec<ChartShot>, Option<String>)> {
     let levels = Levels { black: arguments.black, clip: arguments.clip.unwrap_or(f64::INFINITY) };
-    let mut shots = Vec::new();
+    let (mut shots, mut camera) = (Vec::new(), None);
     for (at, file) in arguments.files.iter().enumerate() {
         let light = &arguments.illuminant[at.min(arguments.illuminant.len() - 1)];
         let is_daylight = light == "daylight";
@@ -132,29 +145,37 @@ fn shots(request: &mut Request, arguments: &ChartArguments) -> Result<Vec<ChartS
         let table = if photo.is_some() { None } else { Some((*recorded_table(request, file, levels)?).clone()) };
         let results = Results::default();
         let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
+        let own_spectra = table.is_some() && arguments.chart.is_none();
         let (patches, pixels) = match photo {
             Some((photo, corners)) => {
+                camera = camera.or_else(|| photo.camera());
                 let patches = photo.patches(corners).map_err(|error| in_file(file, error))?;
                 scene.recorded_patches(&patches).map_err(|error| in_file(file, error))?
             }
             None => (table.unwrap_or_default(), Vec::new()),
         };
-        shots.push(scene.chart_shot(patches, &pixels, arguments.noise / 100.0, is_daylight)?);
+        let mut shot = scene.chart_shot(patches, &pixels, arguments.noise / 100.0, is_daylight)?;
+        shot.picture = display_path(file);
+        if own_spectra {
+            shot.chart = format!("reflectances in {}", shot.picture);
+        }
+        shots.push(shot);
     }
-    Ok(shots)
+    Ok((shots, camera))
 }
 
 fn text(of: &ChartMeasurement) -> String {
     let mut text = measured::curves(&of.recovery).to_text();
-    text += "± is expanded (k = 2). The share of the data is one less the ratio of the variances after and before; the rest is the library's.\n";
+    text += measured::UNCERTAINTY;
+    text +=
+        " The share of the data is one less the ratio of the variances after and before; the rest is the library's.\n";
     for (at, shot) in of.shots.iter().enumerate() {
         let patches = measured::patches(shot, &of.recovery, at).to_text();
         let _ = write!(text, "\nPatches, with residuals of recorded over modeled\n\n{patches}");
     }
     text += "\n";
-    for line in measured::conditions(of) {
-        text += &(line + "\n");
-    }
+    let doubts = measured::doubts(of).into_iter().map(|doubt| format!("Warning: {doubt}"));
+    text.extend(measured::conditions(of).into_iter().chain(doubts).map(|line| line + "\n"));
     text += "Nearest tables of the library, root mean square of the difference relative to the curves:\n";
     for (name, distance) in of.nearest.iter().take(NEAREST) {
         let _ = writeln!(text, "  {} %  {name}", fixed(100.0 * distance, 1));
@@ -162,7 +183,8 @@ fn text(of: &ChartMeasurement) -> String {
     text.extend(measured::left_out(of).map(|line| line + "\n"));
     for (light, profile) in &of.profiles {
         let table = measured::corrections(profile).to_text();
-        let _ = write!(text, "\nColor corrections under {light}, ΔE*00 (mean, largest)\n\n{table}");
+        let matrix = measured::matrix(profile).unwrap_or_default();
+        let _ = write!(text, "\nColor corrections under {light}\n\n{table}\nMatrix {}:\n{matrix}\n", measured::MATRIX);
     }
-    text + "predicted: the curves' values; measured: the recorded values; excluded: recorded values through a fit without that patch\n"
+    text + "\n" + measured::COLUMNS + "\n"
 }

@@ -7,7 +7,7 @@ use chromascope_core::recovery::{Cell as State, NarrowBandRecovery, NarrowBands}
 use chromascope_figure::{Cell, Column, Table};
 use clap::Args;
 
-use super::{Written, put};
+use super::{UNNAMED, Written, put};
 use crate::catalog::narrow_bands::read_pass;
 use crate::cli::error::{Result, refused};
 use crate::cli::outputs::{check, show};
@@ -52,7 +52,9 @@ pub(super) fn run(arguments: &NarrowBandArguments) -> Result<()> {
     let files: Vec<String> = arguments.files.iter().map(|file| display_path(file)).collect();
     let reduction = "mean quotient of the passes, smoothed by the discrepancy principle (chromascope recover narrowband); cells that were saturated or dark are filled from the library's tables";
     let method = format!("raw means of {} narrow bands, {} passes", nm.len(), files.len());
-    put(&found.curves, &arguments.written, &arguments.written.provenance(&files.join(", "), &method, reduction))
+    let (written, files) = (&arguments.written, files.join(", "));
+    let title = written.title.as_deref().unwrap_or(UNNAMED);
+    put(title, &found.curves, written, &written.provenance(&files, &method, reduction))
 }
 
 fn text(found: &NarrowBandRecovery) -> String {

@@ -76,8 +76,8 @@ impl ShotCorrection<'_> {
     }
 }
 
-/// The 3×3 that is fitted to the recorded patches.
-fn matrix(profile: &ShotProfile) -> Option<DMat3> {
+/// The 3×3 that is fitted to the recorded patches, from balanced RGB to XYZ.
+pub fn matrix(profile: &ShotProfile) -> Option<DMat3> {
     let mut fits = profile.fits.iter().map(|[patches, _]| &patches.transform);
     fits.find_map(|transform| if let RgbTransform::Matrix(matrix) = transform { Some(*matrix) } else { None })
 }

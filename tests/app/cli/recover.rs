@@ -1,0 +1,93 @@
+//! `recover chart`: what is printed, what is stated in the file, and what is not written.
+
+use chromascope_core::patch_set::PatchSet;
+use chromascope_core::spectral::{Dataset, GridSpectrum, Quantity, Sensor};
+
+use super::{file, run};
+
+#[allow(dead_code, reason = "shared with the tests of the reader")]
+#[path = "../../raw-image/writer.rs"]
+mod dng;
+
+const CHART: &str = "ColorChecker 24 (BabelColor average)";
+
+/// Raw values of the chart under a light through a camera of the library, the brightest at 40000, with noise of up to 0.3 %.
+fn recording(light: &str) -> Vec<(String, [f64; 3])> {
+    let asset = |path: &str| Dataset::read(chromascope_data::text(path).unwrap()).unwrap();
+    let camera = Sensor::from_dataset(&asset("cameras/nikon_d700.csv")).unwrap();
+    let chart = PatchSet::from_dataset(&asset("charts/colorchecker_24_babelcolor_average.csv"));
+    let light = GridSpectrum::resample(&asset(light).curves[0], Quantity::Light);
+    let raw = |(at, patch): (usize, &chromascope_core::patch_set::Patch)| {
+        let rgb = camera.integrate(patch.grid.times(&light).values());
+        (patch.name.clone(), [0, 1, 2].map(|c: usize| rgb[c] * (1.0 + 0.003 * ((at * 7 + c * 5) % 11) as f64 / 11.0)))
+    };
+    let all: Vec<(String, [f64; 3])> = chart.patches().iter().enumerate().map(raw).collect();
+    let most = all.iter().flat_map(|(_, rgb)| *rgb).fold(0.0, f64::max);
+    all.into_iter().map(|(name, rgb)| (name, rgb.map(|value| 40_000.0 * value / most))).collect()
+}
+
+fn table(name: &str, light: &str) -> String {
+    let rows = recording(light).into_iter().map(|(patch, [r, g, b])| format!("{patch},{r},{g},{b}\n"));
+    file(name, &("patch,R,G,B\n".to_owned() + &rows.collect::<String>())).display().to_string()
+}
+
+/// Standard output, standard error, and true for success.
+fn recover(arguments: &[&str]) -> (String, String, bool) {
+    let output = run(&[&["recover", "chart"], arguments].concat());
+    let [out, error] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
+    (out, error, output.status.success())
+}
+
+/// What is stated of a table in the file beside it.
+fn stated(path: &str) -> String {
+    std::fs::read_to_string(format!("{path}-metadata.json")).unwrap()
+}
+
+#[test]
+fn light_is_named_and_doubts_are_told_before_anything_is_written() {
+    let warm = table("recover_a.csv", "illuminants/a.csv");
+    let (_, error, done) = recover(&[&warm, "--chart", CHART]);
+    assert!(!done && error.contains("--illuminant"), "{error}");
+    let written = file("recover_doubtful.csv", "").display().to_string();
+    let as_daylight = [&warm, "--chart", CHART, "--illuminant", "daylight", "--out", &written, "--force"];
+    let (out, error, done) = recover(&as_daylight);
+    assert!(!done && out.contains("Warning: Daylight of ") && error.contains("--accept-warnings"), "{out} {error}");
+    assert_eq!(std::fs::read_to_string(&written).unwrap(), "", "nothing is written");
+    assert!(recover(&[&as_daylight[..], &["--accept-warnings"]].concat()).2);
+    let named = [&warm, "--chart", CHART, "--illuminant", "A", "--out", &written, "--force"];
+    let (out, _, done) = recover(&named);
+    assert!(done && !out.contains("Warning"), "{out}");
+    for words in [&format!("Chart: {CHART}"), "red, %", "leave-one-out", "ForwardMatrix", "± is expanded (k = 2)"] {
+        assert!(out.contains(words), "{words}: {out}");
+    }
+    assert!(stated(&written).contains(&format!("24 patches of {CHART} under A")));
+}
+
+#[test]
+fn a_wrong_light_is_refused_beside_a_right_one_with_its_picture() {
+    let [warm, cold] = [("recover_warm.csv", "a"), ("recover_cold.csv", "d65")]
+        .map(|(name, light)| table(name, &format!("illuminants/{light}.csv")));
+    let lights = ["--chart", CHART, "--illuminant", "FL11", "--illuminant", "D65"];
+    let (_, alone, _) = recover(&[&[warm.as_str()], &lights[..4]].concat());
+    let (_, error, done) = recover(&[&[warm.as_str(), &cold], &lights[..]].concat());
+    assert!(!done && error.contains("recover_warm.csv by itself") && alone.contains("the light "), "{error} {alone}");
+}
+
+#[test]
+fn the_camera_of_a_dng_names_the_curves() {
+    let rows = recording("illuminants/d65.csv");
+    let at = |index: usize| {
+        let (x, y) = (index % 240 / 40, index / 240 / 40);
+        rows[y * 6 + x].1.map(|value| value as u16)
+    };
+    let samples: Vec<u8> = (0..240 * 160).flat_map(at).flat_map(u16::to_le_bytes).collect();
+    let tags = [dng::text(271, "NIKON CORPORATION"), dng::text(272, "NIKON D700")];
+    let bytes = dng::Dng::linear(240, 160, 16, samples).with(&tags).bytes();
+    let picture = file("recover_camera.dng", "");
+    std::fs::write(&picture, bytes).unwrap();
+    let written = file("recover_camera.csv", "").display().to_string();
+    let named = ["--illuminant", "D65", "--corners", "0,0", "240,0", "240,160", "0,160", "--out", &written, "--force"];
+    let (out, error, done) = recover(&[&[picture.to_str().unwrap()], &named[..]].concat());
+    assert!(done, "{out} {error}");
+    assert!(stated(&written).contains("NIKON D700"));
+}
