@@ -55,7 +55,7 @@ pub fn patches(shot: &Shot, recovery: &ChartRecovery, at: usize) -> Table {
 
 /// Meaning of the columns of [`corrections`].
 pub const COLUMNS: &str = "ΔE*00, mean and largest over the patches. Predicted: of the curves' values; measured: of the recorded values; \
-    left out: of each patch's recorded values through a fit to all others (leave-one-out).";
+    excluded: of each patch's recorded values through a fit to all others (leave-one-out).";
 /// Meaning of ± and of ranks.
 pub const UNCERTAINTY: &str = "± is expanded (k = 2): the value is within it in about 95 of 100 cases. In Rank the ± of a metric is that of these \
     curves, and a rank is a range where cameras do not differ at 95 %.";
@@ -140,7 +140,7 @@ pub fn left_out(measured: &ChartMeasurement) -> Option<String> {
 
 /// ΔE\*00 of the corrections under a light: mean and largest.
 pub fn corrections(profile: &ShotProfile) -> Table {
-    let heads = ["predicted", "largest", "measured", "largest", "left out", "largest"];
+    let heads = ["predicted", "largest", "measured", "largest", "excluded", "largest"];
     let mut table = Table::new(heads.map(|head| column(head, 9, 2)));
     let mut names = Vec::new();
     for fit in profile.fits.iter().flatten() {
