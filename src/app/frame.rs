@@ -39,13 +39,7 @@ impl ChromascopeApp {
             profiler: &mut self.profiler,
             commands: &mut self.commands,
         };
-        // A tooltip that is open where a window opens would stay, and above the window.
-        let ctx = ui.ctx().clone();
-        let is_covered = ctx.memory(egui::Memory::top_modal_layer).is_some();
-        let delay_tooltips = |seconds| ctx.global_style_mut(|style| style.interaction.tooltip_delay = seconds);
-        if is_covered {
-            delay_tooltips(f32::MAX);
-        }
+        delay_tooltips(ui.ctx(), f32::MAX);
         let bar = |ui: &mut Ui, id, height, top| bar(ui, &theme, (id, height), top);
         let menu = bar(ui, "menu", 30.0, true);
         let conditions = bar(ui, "conditions", panes::scene_bar::HEIGHT, true);
@@ -123,9 +117,7 @@ impl ChromascopeApp {
         }
         enter_by_arrows(ui.ctx(), context.view);
         panes::status_bar::show(ui, status, &self.arrangement, &mut context);
-        if is_covered {
-            delay_tooltips(theme::TOOLTIP_DELAY);
-        }
+        delay_tooltips(ui.ctx(), theme::TOOLTIP_DELAY);
         panes::help::show(ui, &self.history, &mut context);
         path_prompt::show(ui, &theme, &mut self.files);
         context.render_service.end_frame();
@@ -133,6 +125,13 @@ impl ChromascopeApp {
         self.ask_about_session(ui, &theme);
         ring(ui.ctx(), &theme);
         drop_veil(ui, theme);
+    }
+}
+
+/// Delays tooltips below an open window: one that is open where the window opens would stay, and above it.
+fn delay_tooltips(ctx: &egui::Context, seconds: f32) {
+    if ctx.memory(egui::Memory::top_modal_layer).is_some() {
+        ctx.global_style_mut(|style| style.interaction.tooltip_delay = seconds);
     }
 }
 

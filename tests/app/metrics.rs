@@ -301,8 +301,7 @@ fn better_is_claimed_at_95_percent() {
 fn a_report_card_is_a_figure_like_others() {
     let (catalog, results, document) = (Catalog::built_in(), Results::default(), Document::colorimetry());
     let scene = Scene { document: &document, catalog: &catalog, results: &results };
-    let mut view = View::default();
-    view.selected = Some(PlotItem::Sensor(camera("Kodak DCS200")));
+    let mut view = View { selected: Some(PlotItem::Sensor(camera("Kodak DCS200"))), ..View::default() };
     let figure = panes::figure(PaneKind::REPORT_CARD, &scene, &view.look(PaneKind::REPORT_CARD), FigureRoom::default())
         .expect("a page");
     assert_eq!(figure.title, "Report card: Kodak DCS200");

@@ -96,7 +96,7 @@ impl Axis {
     /// Ticks of a vertical axis drawn `length` points long. Labels given for it may stand closer, and others where fewer than
     /// three would be left: lines of text are low.
     pub fn vertical_ticks_over(&self, range: [f64; 2], length: f64) -> Vec<Tick> {
-        let stretch = if matches!(self.ticks, Ticks::At(_)) { 3.0 } else { 1.0 };
+        let stretch = if matches!(self.ticks, Ticks::At(_)) { 3.5 } else { 1.0 };
         let ticks = self.spaced(range, stretch * length, MIN_LABEL_SPACING);
         if self.ticks != Ticks::Auto || ticks.len() > 2 {
             return ticks;

@@ -51,29 +51,21 @@ pub fn menu(ui: &mut Ui, entry: &Entry, context: &mut PaneContext<'_>) {
 /// The camera of Rank's page, of the whole library; the one chosen is selected.
 pub fn camera(ui: &mut Ui, width: f32, context: &mut PaneContext<'_>) {
     let now = context.view.camera(&context.scene).map(|id| id.name);
-    let mut names = Vec::new();
+    let is_compared = |entry: &Entry| context.scene.document.compared(SetKind::Camera, &entry.name).is_some();
+    let mut entries = Vec::new();
     let hint = "The camera of the page, of the whole library: the one selected";
     let shown = now.as_deref().unwrap_or("Choose a camera");
     let chosen = pick_list::drop_down(ui, ("Camera", hint), shown, width, &context.theme, || {
-        let is_compared = |entry: &Entry| context.scene.document.compared(SetKind::Camera, &entry.name).is_some();
-        let mut entries: Vec<Entry> = context.scene.entries(SetKind::Camera).collect();
+        entries.extend(context.scene.entries(SetKind::Camera));
         entries.sort_by_key(|entry| !is_compared(entry));
-        let mut lines = Vec::new();
-        for entry in entries {
-            let group = if is_compared(&entry) { "Compared" } else { "Library" };
-            if lines.iter().all(|line: &Line| !line.is_heading || line.words != group) {
-                lines.push(Line::heading(group));
-                names.push(String::new());
-            }
-            let Entry { name, short, also, .. } = entry;
-            let on = now.as_ref() == Some(&name);
-            lines.push(Line { also: format!("{short} {}", also.unwrap_or_default()), ..Line::new(&name, on) });
-            names.push(name);
-        }
-        lines
+        let line = |Entry { name, short, also, .. }: &Entry| {
+            let also = format!("{short} {}", also.as_deref().unwrap_or_default());
+            Line { also, ..Line::new(name, now.as_ref() == Some(name)) }
+        };
+        entries.iter().map(line).collect()
     });
     if let Some(index) = chosen {
-        context.view.selected = Some(PlotItem::of_set(SetKind::Camera, &names.swap_remove(index)));
+        context.view.selected = Some(PlotItem::of_set(SetKind::Camera, &entries[index].name));
     }
 }
 

@@ -60,9 +60,9 @@ mod tests {
         let expected = ["5D III", "5D IV", "D70 (2007 figure)", "D70 (UPenn 2011)", "D700"];
         assert_eq!(all.each_ref().map(shortest), expected.map(|short| Some(short.to_owned())));
         assert_eq!(fitted(&all[0], &all, |form| form.len() < 14), "5D III");
-        assert_eq!(fitted(&all[0], &all, |form| form.chars().count() <= 5), "5D…II");
+        assert_eq!(fitted(&all[0], &all, |form| form.chars().count() <= 5), "5D…I");
         let own = ["TEST (measured)", "TEST (measured 2)"].map(str::to_owned);
         assert_eq!(fitted(&own[0], &own[..1], |form| form.len() < 12), "TEST");
-        assert_eq!(fitted(&own[1], &own, |form| form.chars().count() <= 11), "TEST (m… 2)");
+        assert_eq!(fitted(&own[1], &own, |form| form.chars().count() <= 11), "TEST (me…2)");
     }
 }
