@@ -81,15 +81,19 @@ fn names(panel: &Panel, places: &[&Place]) -> Vec<Mark> {
     for place in places {
         if !named.contains(&place.name.as_str()) {
             named.push(&place.name);
-            // A leader out of a crowd does not tell which of its points is named.
+            // A leader out of a crowd does not tell well which of its points is named.
             if !labels.place(&Label { starts: Vec::new(), ..label(place, &place.name) }) {
                 crowded.push(place);
             }
         }
     }
-    // As many in a list as it has room for.
-    let listed = (1..=crowded.len()).rev().find_map(|count| with_list(&labels, &crowded[..count]));
-    listed.unwrap_or(labels).into_marks()
+    // As many in a list as it has room for; what is left takes a leader.
+    let listed = (1..=crowded.len()).rev().find_map(|count| Some((with_list(&labels, &crowded[..count])?, count)));
+    let (mut labels, count) = listed.unwrap_or((labels, 0));
+    for place in &crowded[count..] {
+        labels.place(&label(place, &place.name));
+    }
+    labels.into_marks()
 }
 
 fn label(place: &Place, text: &str) -> Label {
