@@ -106,19 +106,25 @@ impl ChromascopeApp {
 
     /// Takes the pictures out of what is opened, and leads to where a camera is measured from them.
     fn take_pictures(&mut self, requests: &mut Vec<Request>) {
+        let mut pictures = Vec::new();
         requests.retain(|request| match request {
             Request::Path(path) if is_picture(path) => {
-                self.measure_from(path.clone());
+                pictures.push(path.clone());
                 false
             }
             _ => true,
         });
+        // The first is shown; the others follow as soon as it is taken.
+        pictures.into_iter().rev().for_each(|path| self.measure_from(path));
     }
 
     /// Shows a picture of a chart where a camera is measured from it.
     pub(super) fn measure_from(&mut self, path: PathBuf) {
         self.end_tour();
         self.recorded.read_again(&path);
+        if !self.view.recorded.photos.contains(&path) {
+            self.view.recorded.photos.push(path.clone());
+        }
         self.view.recorded.photo = Some(path);
         self.show_workspace(Workspace::Data);
         self.view.show(PaneKind::MEASURE);

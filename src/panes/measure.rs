@@ -14,7 +14,7 @@ use crate::action::Action;
 use crate::command::Command;
 use crate::document::measurement::{MeasuredShot, Measurement};
 use crate::document::{Light, SetKind};
-use crate::format::sentence;
+use crate::format::{file_name, sentence};
 use crate::panes::widgets;
 use crate::panes::widgets::pick_list::{self, Line};
 use crate::scene::measurement::STAND_IN_K;
@@ -55,7 +55,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         }
         results::add(ui, context);
         if ui.button("Start anew").on_hover_text("Remove all pictures of this measurement").clicked() {
-            context.view.recorded.photo = None;
+            (context.view.recorded.photo, context.view.recorded.photos) = (None, Vec::new());
             change(context, "Start a measurement anew", |measurement| *measurement = Measurement::default());
         }
     });
@@ -112,7 +112,15 @@ fn shots(ui: &mut Ui, context: &mut PaneContext<'_>) {
 
 fn one_shot(ui: &mut Ui, index: usize, shot: &MeasuredShot, context: &mut PaneContext<'_>) {
     let (scene, theme) = (context.scene, context.theme);
-    ui.label(&shot.file);
+    let recorded = &mut context.view.recorded;
+    match recorded.photos.iter().find(|path| file_name(path) == shot.file) {
+        Some(path) if recorded.photo.as_ref() != Some(path) => {
+            if ui.button(&shot.file).on_hover_text("Show this picture").clicked() {
+                recorded.photo = Some(path.clone());
+            }
+        }
+        _ => drop(ui.label(&shot.file)),
+    }
     ui.label("under");
     const UNKNOWN: &str = "Daylight of unknown temperature";
     let mut lights = vec![(Line::new(UNKNOWN, shot.is_daylight()), (Light::Daylight, None))];

@@ -18,6 +18,8 @@ pub struct RecordedView {
     pub path: Option<PathBuf>,
     /// Picture of a chart that is shown where a camera is measured.
     pub photo: Option<PathBuf>,
+    /// All such pictures that were opened.
+    pub photos: Vec<PathBuf>,
     pub freedom: Freedom,
     /// Raw value from which on a channel of a table is clipped; 0 for none.
     pub clip: f64,

@@ -192,6 +192,24 @@ fn where_no_chart_is_found_its_corners_are_clicked() {
 }
 
 #[test]
+fn pictures_dropped_together_are_all_measured() {
+    let mut window = window();
+    let broken = Path::new(env!("CARGO_TARGET_TMPDIR")).join("broken.dng");
+    std::fs::write(&broken, b"II*\0 no picture").unwrap();
+    let all = vec![picture("first.tiff", 12), broken, picture("second.tiff", 12)];
+    window.state_mut().open_at_start(all);
+    let shots = |window: &Window| window.state().history.document().measurement.shots.clone();
+    waiting::until("both pictures", || {
+        window.run_steps(2);
+        let names: Vec<_> = shots(&window).into_iter().map(|shot| shot.file).collect();
+        if names == ["first.tiff", "second.tiff"] { Ok(()) } else { Err(format!("{names:?}")) }
+    });
+    // The one that is not shown can be.
+    window.get_by_label("first.tiff").click();
+    until(&mut window, "Picture: first.tiff");
+}
+
+#[test]
 fn a_picture_that_holds_no_raw_values_says_what_to_do() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
     image::RgbImage::new(8, 8).save(folder.join("photo.png")).unwrap();

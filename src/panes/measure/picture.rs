@@ -1,5 +1,7 @@
 //! The picture of a chart: corners found or clicked, dragged where they are off.
 
+use std::path::PathBuf;
+
 use chromascope_core::camera::chart_grid::ChartGrid;
 use chromascope_figure::{Axis, Dash, InkRole, Mark, Marker, Panel, Shape, Tag};
 use egui::{Id, Label, RichText, Sense, Ui, Vec2};
@@ -32,7 +34,15 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
             ui.weak(format!("Reading {name}…"));
             return;
         }
-        FileState::Failed(why) => return wrong(ui, &why, context),
+        FileState::Failed(why) => {
+            // Others that are not measured yet go on without it.
+            context.view.recorded.photos.retain(|other| *other != path);
+            next(context);
+            if context.view.recorded.photo.as_ref() != Some(&path) {
+                return context.view.fail(why.to_string());
+            }
+            return wrong(ui, &why, context);
+        }
     };
     let RecordedContent::Picture(photo) = &file.content else { return };
     let shot = context.scene.document.measurement.shots.iter().position(|shot| shot.file == name);
@@ -59,6 +69,18 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     draw(ui, &name, photo, &corners, context);
 }
 
+/// Shows a picture that is not measured yet in place of one that is.
+fn next(context: &mut PaneContext<'_>) {
+    let recorded = &mut context.view.recorded;
+    let shots = &context.scene.document.measurement.shots;
+    let is_open = |path: &&PathBuf| {
+        recorded.photo.as_ref() != Some(*path) && shots.iter().all(|shot| shot.file != file_name(path))
+    };
+    if let Some(path) = recorded.photos.iter().find(is_open).cloned() {
+        recorded.photo = Some(path);
+    }
+}
+
 /// Puts the patches within the corners into the document.
 fn take(name: &str, photo: &ChartPhoto, context: &mut PaneContext<'_>) {
     let state = context.states.of::<State>();
@@ -80,6 +102,7 @@ fn take(name: &str, photo: &ChartPhoto, context: &mut PaneContext<'_>) {
             None => measurement.shots.push(new_shot(name, corners, patches)),
         }
     });
+    next(context);
 }
 
 fn new_shot(file: String, corners: [[f64; 2]; 4], patches: Vec<MeasuredPatch>) -> MeasuredShot {
