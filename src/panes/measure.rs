@@ -27,6 +27,7 @@ pub const PANE: Pane = Pane::new(PaneKind::MEASURE, "Measure", show).tab("Measur
 const ABOUT: &str = "Photograph a chart of 24 patches (ColorChecker), evenly lit, slightly underexposed and slightly out of \
     focus, as a raw file, and drop it here: DNG, or a linear 16-bit TIFF or PNG. The camera's sensitivities are estimated from \
     its raw values with those of the library as a prior: good for color, a guess where the band is wide.";
+const UNKNOWN: &str = "Daylight of unknown temperature";
 const PICK: f32 = 220.0;
 const NAME: f32 = 220.0;
 
@@ -122,7 +123,6 @@ fn one_shot(ui: &mut Ui, index: usize, shot: &MeasuredShot, context: &mut PaneCo
         _ => drop(ui.label(&shot.file)),
     }
     ui.label("under");
-    const UNKNOWN: &str = "Daylight of unknown temperature";
     let mut lights = vec![(Line::new(UNKNOWN, shot.is_daylight()), (Light::Daylight, None))];
     let of_scene = (scene.document.light.clone(), Some(scene.document.temperature_k));
     if !matches!(of_scene.0, Light::Set(_)) {

@@ -39,7 +39,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
             context.view.recorded.photos.retain(|other| *other != path);
             next(context);
             if context.view.recorded.photo.as_ref() != Some(&path) {
-                return context.view.fail(why.to_string());
+                return context.view.fail(why.clone());
             }
             return wrong(ui, &why, context);
         }

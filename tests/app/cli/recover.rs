@@ -5,7 +5,7 @@ use chromascope_core::spectral::{Dataset, GridSpectrum, Quantity, Sensor};
 
 use super::{file, run};
 
-#[allow(dead_code, reason = "shared with the tests of the reader")]
+#[allow(dead_code, clippy::cast_possible_wrap, reason = "shared with the tests of the reader, whose files are small")]
 #[path = "../../raw-image/writer.rs"]
 mod dng;
 
