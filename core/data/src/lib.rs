@@ -16,6 +16,11 @@ pub fn files(folder: &str) -> impl Iterator<Item = (&'static str, &'static str)>
     files.filter_map(|file| file.path().to_str().zip(file.contents_utf8()))
 }
 
+/// Folders below `assets`.
+pub fn folders() -> impl Iterator<Item = &'static str> {
+    ASSETS.dirs().filter_map(|folder| folder.path().to_str())
+}
+
 /// Text of the file at a path below `assets`.
 pub fn text(path: &str) -> Option<&'static str> {
     ASSETS.get_file(path).and_then(|file| file.contents_utf8())

@@ -141,7 +141,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Outcome {
 }
 
 /// The command line. One `--camera` takes several values, as shells make them of `*.csv`, where no other file can follow.
-fn command() -> clap::Command {
+pub fn command() -> clap::Command {
     let is_camera = |argument: &clap::Arg| argument.get_id() == "camera" && argument.get_long().is_some();
     Arguments::command().mut_subcommands(|command| {
         let takes_several = command.get_positionals().next().is_none() && command.get_arguments().any(is_camera);

@@ -64,8 +64,8 @@ impl<S: Deref<Target = Sensor>> ReferenceLocus<S> {
         self.rendering.blackbody(self.evaluator.raw(temperature)).uv_prime()
     }
 
-    /// The same between the points by the polynomial of degree 7 through eight of them: to 1e-10, where [`Self::at`] takes a hundred
-    /// times as long. Beyond the points as there.
+    /// The same between the points by the polynomial of degree 7 through eight of them: to 1e-10 of [`Self::at`], for some thirtieth
+    /// of its instructions. Beyond the points as there.
     fn between(&self, mired: f64) -> Option<UvPrime> {
         const NODES: usize = 8;
         let [first, last] = RANGE_MIRED;

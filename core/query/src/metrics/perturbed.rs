@@ -54,9 +54,11 @@ pub(super) struct Stimuli {
     training: Range<usize>,
     index: Range<usize>,
     observer: Option<ObserverSpace>,
-    /// Orthonormal basis of the curves of the sites and of the observer, and their coordinates: those of sites one behind the other.
+    /// Orthonormal basis of the curves of the sites and of the observer.
     basis: Vec<Vec<f64>>,
+    /// Coordinates in it of the curve of each site.
     sites: Vec<Vec<f64>>,
+    /// Coordinates in it of the observer's curves.
     seen: [Vec<f64>; 3],
 }
 
