@@ -2,6 +2,7 @@
 
 pub mod card;
 pub mod measured;
+pub mod package;
 pub mod page;
 pub mod paper;
 pub mod profile;

@@ -105,3 +105,34 @@ fn a_long_name_is_cut_in_its_middle() {
     let is_cut = |end: &str| rows.lines().any(|row| row.contains("predicted-sens") && row.contains(end));
     assert!(rows.contains('…') && is_cut("long-first") && is_cut("long-second"), "{rows}");
 }
+
+#[test]
+fn the_library_is_a_data_package() {
+    let folder = folder("data package");
+    let out = folder.join("library");
+    assert!(run(&["list", "--out", text(&out)]).status.success());
+    refused(&["list", "--out", text(&out)], &["exists", "--force"]);
+    let known: Value = serde_json::from_slice(&std::fs::read(out.join("datapackage.json")).unwrap()).unwrap();
+    let resources = known["resources"].as_array().unwrap();
+    let listed = String::from_utf8(run(&["list"]).stdout).unwrap();
+    // Five of the patches are a choice, no set.
+    for name in listed.lines().filter(|name| !name.starts_with("Five")) {
+        assert!(resources.iter().any(|of| of["title"] == name), "{name}");
+    }
+    for of in resources {
+        let [path, hash] = ["path", "hash"].map(|key| of[key].as_str().unwrap());
+        let bytes = std::fs::read(out.join(path)).unwrap();
+        assert_eq!(of["bytes"], bytes.len(), "{path}");
+        assert!(hash.strip_prefix("sha256:").is_some_and(|digits| digits.len() == 64), "{hash}");
+        assert!(of["sources"][0]["title"].as_str().is_some_and(|source| !source.is_empty()), "{path}");
+        if let Some(terms) = of["licenses"][0]["path"].as_str() {
+            assert!(out.join(terms).is_file(), "{terms}");
+        }
+    }
+    let read = String::from_utf8(run(&["inspect", text(&out), "--json"]).stdout).unwrap();
+    let read: Value = serde_json::from_str(&read).unwrap();
+    assert_eq!(read.as_array().map(Vec::len), Some(resources.len()));
+    // The first example of FIPS 180-4.
+    let abc = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+    assert_eq!(chromascope::export::package::checksum("abc"), format!("sha256:{abc}"));
+}
