@@ -30,10 +30,10 @@ pub(super) fn unit(grid: &Grid, options: &ReadOptions) -> Result<Decided<Wavelen
     }
 }
 
-/// The unit of a column that is headed frequencies and no unit: MODTRAN means wave numbers by FREQ, else only the user knows.
+/// The unit of a column that is headed frequencies or energies and no unit: MODTRAN means wave numbers by FREQ, else only the user knows.
 fn unit_from_frequencies(grid: &Grid) -> Option<Result<Decided<WavelengthUnit>, ReadError>> {
     let name = grid.header.name(grid.wavelength_column?.saturating_sub(1))?;
-    is_one(&name.to_lowercase(), "freq|freq.|frequency|frequencies").then(|| {
+    is_one(&name.to_lowercase(), "freq|freq.|frequency|frequencies|energy|energies|photon energy").then(|| {
         let why = "MODTRAN writes wave numbers under FREQ";
         let guess = Decided::guess(WavelengthUnit::Wavenumber, why);
         if name == "FREQ" { Ok(guess) } else { Err(ReadError::NotWavelengths(grid.header.line.unwrap_or(1))) }
@@ -108,7 +108,11 @@ pub(super) fn to_nanometers(
     let nm = &grid.wavelengths;
     let out = |wavelength: &f64| !RANGE_NM.contains(wavelength);
     let Some(first) = nm.iter().position(out) else { return Ok(()) };
-    let error = ReadError::WavelengthOutOfRange { line: grid.line(first), wavelength_nm: nm[first] };
+    let (line, wavelength_nm) = (grid.line(first), nm[first]);
+    let error = match grid.curves.iter().find(|curve| is_axis(&curve.values)).and_then(|curve| curve.column) {
+        Some(column) => ReadError::OtherWavelengthColumn { line, wavelength_nm, column },
+        None => ReadError::WavelengthOutOfRange { line, wavelength_nm },
+    };
     let marked: Vec<bool> = nm.iter().map(out).collect();
     let count = marked.iter().filter(|out| **out).count();
     let within = marked.iter().position(|out| !out).unwrap_or(0);
@@ -132,8 +136,16 @@ pub(super) fn to_nanometers(
     Ok(())
 }
 
-/// Brings a grid into ascending order without repeats. Returns whether it was descending.
-pub(super) fn sort(grid: &mut Grid, log: &mut Log<'_>) -> bool {
+/// Returns whether numbers are in order and within the accepted wavelengths in nanometers.
+fn is_axis(numbers: &[f64]) -> bool {
+    const FEWEST: usize = 5;
+    let ordered = |sign: f64| numbers.windows(2).all(|pair| sign * (pair[1] - pair[0]) > 0.0);
+    numbers.len() >= FEWEST && numbers.iter().all(|nm| RANGE_NM.contains(nm)) && (ordered(1.0) || ordered(-1.0))
+}
+
+/// Brings a grid into ascending order without repeats. Returns whether it was descending. Refuses rows most of which are at one
+/// wavelength.
+pub(super) fn sort(grid: &mut Grid, log: &mut Log<'_>) -> Result<bool, ReadError> {
     let wavelengths = &grid.wavelengths;
     let falls = wavelengths.windows(2).filter(|pair| pair[1] < pair[0]).count();
     let rises = wavelengths.windows(2).filter(|pair| pair[1] > pair[0]).count();
@@ -148,8 +160,25 @@ pub(super) fn sort(grid: &mut Grid, log: &mut Log<'_>) -> bool {
         order.sort_by(|&a, &b| wavelengths[a].total_cmp(&wavelengths[b]));
         grid.reorder(&order);
     }
+    refuse_settings(grid)?;
     merge_repeats(grid, log);
-    descending
+    Ok(descending)
+}
+
+/// Refuses rows most of which are at one wavelength with other values: settings, or a course over time.
+fn refuse_settings(grid: &Grid) -> Result<(), ReadError> {
+    const FEWEST: usize = 4;
+    let rows = grid.wavelengths.len();
+    let mut start = 0;
+    for run in grid.wavelengths.chunk_by(|a, b| a == b) {
+        let end = start + run.len();
+        if run.len() >= FEWEST && 2 * run.len() > rows && !(start + 1..end).all(|row| grid.same_values(start, row)) {
+            let (line, nm) = ((start..end).map(|row| grid.line(row)).min().unwrap_or(1), run[0]);
+            return Err(ReadError::OneWavelength { line, nm, count: run.len(), rows });
+        }
+        start = end;
+    }
+    Ok(())
 }
 
 pub(super) fn warn(grid: &Grid, step: Steps, log: &mut Log<'_>) {

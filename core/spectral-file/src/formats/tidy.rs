@@ -36,7 +36,7 @@ const DELIMITERS: [Delimiter; 5] =
 
 /// Names of columns of numbers that tell samples apart.
 const KEYS: &str = "sample|samples|specimen|individual|replicate|rep|species|id|sampleid|plot|plant|leaf|patch|spot|scan|spectrum|\
-    group|treatment|idx|measurement|filter|lamp|subject|tree|flower|curve|series|variable|name";
+    group|treatment|idx|measurement|filter|lamp|subject|tree|flower|curve|series|variable|name|degree|degrees|angle|theta|phi";
 
 /// Layout of such a table, as its first lines suggest it.
 struct Plan {
