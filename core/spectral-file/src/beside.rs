@@ -48,9 +48,12 @@ fn file_stem(path: &str) -> Option<&str> {
 fn of_path(path: &str, names_other: bool) -> Option<Decided<Role>> {
     let stem = file_stem(path)?;
     let mut names = path.rsplit(['/', '\\']).skip(1);
-    let folder = names.find(|name| !name.is_empty()).filter(|_| !names_other).map(|name| ("folder", name));
+    let folder = names.find(|name| !name.is_empty()).map(|name| ("folder", name));
     let (what, name, (role, agree)) =
         std::iter::once(("file", stem)).chain(folder).find_map(|(what, name)| Some((what, name, of_name(name)?)))?;
+    if what == "folder" && names_other && role != Role::Unknown {
+        return None;
+    }
     let name = excerpt(name);
     Some(if role == Role::Unknown {
         Decided::open(

@@ -353,10 +353,12 @@ impl Columns {
         let axes = if is_told { axes::Axes::default() } else { find() };
         let texts = self.texts.columns.iter().filter(|text| text.other || text.unit.is_none()).map(|text| text.column);
         let texts: Vec<usize> = texts.filter(|&column| column < columns && column != at).collect();
+        // Behind no others, the chosen wavelengths are those of the columns before them.
+        let last = layout.wavelength_column.is_some() && values.iter().all(|values| is_empty(values));
         let is_left = |(column, values): &(usize, Vec<f64>)| {
             axes.more.is_empty()
                 && !is_empty(values)
-                && header.name(*column).is_some_and(|name| !header_terms::is_count(name))
+                && header.name(*column).map_or(last, |name| !header_terms::is_count(name))
         };
         let before = std::mem::take(&mut self.cells).into_iter().enumerate();
         let (left, skipped): (Vec<_>, Vec<_>) =

@@ -125,10 +125,7 @@ pub enum ReadError {
          choose it as that of the wavelengths (--wavelength-column {column})"
     )]
     OtherWavelengthColumn { line: usize, wavelength_nm: f64, column: usize },
-    #[error(
-        "line {line}: {count} of {rows} rows are at {nm} nm, as settings or a course over time are and no spectrum is: choose the \
-         column of wavelengths, or export a spectrum"
-    )]
+    #[error("line {line}: {count} of {rows} rows are at {nm} nm, as in no spectrum: choose the column of wavelengths")]
     OneWavelength { line: usize, nm: f64, count: usize, rows: usize },
     #[error("{what}: correct it, leave it empty if it is missing, or choose plain numbers to use it as it is")]
     ImpossibleValues {

@@ -465,7 +465,7 @@ pub(super) fn names_wavelengths(text: &str) -> bool {
         text.match_indices(symbol).any(|(at, _)| !text[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_'))
     };
     has_part(&text, "wavelength|wavenumber|wave number")
-        || (text.contains("frequency") && has_word(&text, "thz|hz"))
+        || (text.contains("freq") && has_word(&text, "thz|hz"))
         || symbol("lambda")
         || symbol("λ")
         || ["w.length", "w_length"].iter().any(|name| text.starts_with(name))

@@ -86,8 +86,10 @@ fn relabel(curve: &mut RawCurve, values: Values, role: Role) {
         Values::Absorbance => {
             curve.unit = Some("1".to_owned());
             let by = |word: &str| (word == "abs" || word.starts_with("absorban")).then_some(fraction);
-            let spelled = ["Absorbance", "Absorbanz"].iter().fold(curve.name.clone(), |name, word| apart(&name, word));
-            replaced(&spelled, by).trim_end_matches('.').to_owned()
+            // `bxw2Absorbance` is two words.
+            let (before, word) = curve.name.split_at(curve.name.find("Absorban").unwrap_or(0));
+            let blank = if before.ends_with(char::is_alphanumeric) { " " } else { "" };
+            replaced(&format!("{before}{blank}{word}"), by).trim_end_matches('.').to_owned()
         }
         Values::Decibels => {
             // Decibels are powers above a milliwatt, or ratios.
@@ -106,12 +108,6 @@ fn relabel(curve: &mut RawCurve, values: Values, role: Role) {
     let misleads = renamed.is_empty() || header_terms::values(&renamed).is_some_and(|said| said != Values::Plain);
     let whole = if role.is_fraction() { fraction } else { "Power" };
     curve.name = if misleads { whole.to_owned() } else { renamed };
-}
-
-/// A name with a word apart that is glued to what stands before it: `bxw2 Absorbance`.
-fn apart(name: &str, word: &str) -> String {
-    let glued = name.strip_suffix(word).filter(|before| before.ends_with(char::is_alphanumeric));
-    glued.map_or_else(|| name.to_owned(), |before| format!("{before} {word}"))
 }
 
 /// A text with some of its words, given in lower case, replaced, and without what blanks and brackets that leaves.

@@ -1,14 +1,16 @@
 //! Wavelengths: their unit, their range, their order, and repeats.
 
+use crate::columns::axes::ends;
 use crate::decimal::extent;
 use crate::decision::{Certainty, Decided, Dropped, WavelengthUnit};
 use crate::error::ReadError;
-use crate::grid::Grid;
+use crate::grid::{Grid, RawCurve};
 use crate::header_terms::{self, XUnit};
+use crate::no_curve::FEWEST_ROWS;
 use crate::options::ReadOptions;
 use crate::report::Steps;
 use crate::text::is_one;
-use crate::units::RANGE_NM;
+use crate::units::{RANGE_NM, plausible};
 use crate::warning::{LineList, Warning};
 use crate::watch::Log;
 
@@ -109,7 +111,9 @@ pub(super) fn to_nanometers(
     let out = |wavelength: &f64| !RANGE_NM.contains(wavelength);
     let Some(first) = nm.iter().position(out) else { return Ok(()) };
     let (line, wavelength_nm) = (grid.line(first), nm[first]);
-    let error = match grid.curves.iter().find(|curve| is_axis(&curve.values)).and_then(|curve| curve.column) {
+    let within = |curve: &&RawCurve| ends(&curve.values).is_some_and(|(low, high)| plausible(low, high, false));
+    let turned = grid.curves.iter().find(within).filter(|curve| curve.values.len() > FEWEST_ROWS);
+    let error = match turned.and_then(|curve| curve.column) {
         Some(column) => ReadError::OtherWavelengthColumn { line, wavelength_nm, column },
         None => ReadError::WavelengthOutOfRange { line, wavelength_nm },
     };
@@ -136,16 +140,10 @@ pub(super) fn to_nanometers(
     Ok(())
 }
 
-/// Returns whether numbers are in order and within the accepted wavelengths in nanometers.
-fn is_axis(numbers: &[f64]) -> bool {
-    const FEWEST: usize = 5;
-    let ordered = |sign: f64| numbers.windows(2).all(|pair| sign * (pair[1] - pair[0]) > 0.0);
-    numbers.len() >= FEWEST && numbers.iter().all(|nm| RANGE_NM.contains(nm)) && (ordered(1.0) || ordered(-1.0))
-}
-
 /// Brings a grid into ascending order without repeats. Returns whether it was descending. Refuses rows most of which are at one
 /// wavelength.
 pub(super) fn sort(grid: &mut Grid, log: &mut Log<'_>) -> Result<bool, ReadError> {
+    const FEWEST_SETTINGS: usize = 4;
     let wavelengths = &grid.wavelengths;
     let falls = wavelengths.windows(2).filter(|pair| pair[1] < pair[0]).count();
     let rises = wavelengths.windows(2).filter(|pair| pair[1] > pair[0]).count();
@@ -160,25 +158,15 @@ pub(super) fn sort(grid: &mut Grid, log: &mut Log<'_>) -> Result<bool, ReadError
         order.sort_by(|&a, &b| wavelengths[a].total_cmp(&wavelengths[b]));
         grid.reorder(&order);
     }
-    refuse_settings(grid)?;
+    // What more than half are is in the middle.
+    let (all, nm) = (&grid.wavelengths, grid.wavelengths[grid.wavelengths.len() / 2]);
+    let (from, to) = (all.partition_point(|other| *other < nm), all.partition_point(|other| *other <= nm));
+    let (count, rows) = (to - from, all.len());
+    if count >= FEWEST_SETTINGS && 2 * count > rows && !(from + 1..to).all(|row| grid.same_values(from, row)) {
+        return Err(ReadError::OneWavelength { line: grid.line(from), nm, count, rows });
+    }
     merge_repeats(grid, log);
     Ok(descending)
-}
-
-/// Refuses rows most of which are at one wavelength with other values: settings, or a course over time.
-fn refuse_settings(grid: &Grid) -> Result<(), ReadError> {
-    const FEWEST: usize = 4;
-    let rows = grid.wavelengths.len();
-    let mut start = 0;
-    for run in grid.wavelengths.chunk_by(|a, b| a == b) {
-        let end = start + run.len();
-        if run.len() >= FEWEST && 2 * run.len() > rows && !(start + 1..end).all(|row| grid.same_values(start, row)) {
-            let (line, nm) = ((start..end).map(|row| grid.line(row)).min().unwrap_or(1), run[0]);
-            return Err(ReadError::OneWavelength { line, nm, count: run.len(), rows });
-        }
-        start = end;
-    }
-    Ok(())
 }
 
 pub(super) fn warn(grid: &Grid, step: Steps, log: &mut Log<'_>) {

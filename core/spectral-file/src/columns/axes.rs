@@ -112,7 +112,7 @@ pub(super) fn unit(header: &Header, column: usize) -> Option<XUnit> {
 }
 
 /// The ends of numbers that rise or fall all the way, from the first to the last one.
-fn ends(values: &[f64]) -> Option<(f64, f64)> {
+pub(crate) fn ends(values: &[f64]) -> Option<(f64, f64)> {
     let start = values.iter().position(|value| !value.is_nan())?;
     let end = values.iter().rposition(|value| !value.is_nan())?;
     let values = &values[start..=end];

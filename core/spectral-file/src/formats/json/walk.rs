@@ -183,8 +183,8 @@ impl<'d, 'a, 'l, 'w> Walk<'d, 'a, 'l, 'w> {
         let axes: Vec<_> = lists.extract_if(.., |(key, _)| header_terms::names_axis(&words(key))).collect();
         for (key, _) in axes {
             let said = words(&key);
-            let mark: Vec<&str> = said.split(' ').filter(|word| !header_terms::names_wavelengths(word)).collect();
-            let mark = mark.join(" ");
+            let mark =
+                said.split(' ').filter(|word| !header_terms::names_wavelengths(word)).collect::<Vec<_>>().join(" ");
             let goes = |said: &str| said.starts_with(&format!("{mark} ")) || said.ends_with(&format!(" {mark}"));
             let own: Vec<_> = lists.extract_if(.., |(key, _)| !mark.is_empty() && goes(&words(key))).collect();
             match members.get(&key).filter(|_| !own.is_empty()) {
