@@ -80,7 +80,8 @@ fn of_difference(curves: &[RawCurve], index: usize) -> Option<Term> {
         curve.named && (curve.name == name || stem() == name)
     };
     let of = curves[..index].iter().rev().take(NEAR).find(is_its).filter(|_| own.named && !name.is_empty())?;
-    let term = uncertainty_terms::difference(uncertainty_terms::without_mean(&uncertainty_terms::key(&of.name)));
+    let about = uncertainty_terms::without_mean(&uncertainty_terms::key(&of.name));
+    let term = Term { kind: Kind::Unsaid, clear: false, of: about, coverage: None, ..uncertainty_terms::expanded(1.0) };
     let sound = fault(&own.values, &of.values).is_none() && !is_too_large(&of.values, &own.values);
     Some(term).filter(|term| sound && !other_unit(of, own, term))
 }

@@ -36,13 +36,8 @@ pub(super) struct Term {
 
 /// What a head of the program's own says: that numbers are U = k u.
 pub(super) fn expanded(coverage: f64) -> Term {
-    Term { kind: Kind::Expanded, clear: true, coverage: Some(coverage), ..difference(String::new()) }
-}
-
-/// What a small difference such as `dR` says of the curve with these words.
-pub(super) fn difference(of: String) -> Term {
-    let (coverage, level) = (None, None);
-    Term { kind: Kind::Unsaid, clear: false, of, coverage, level, relative: false, percent: false }
+    let (kind, coverage) = (Kind::Expanded, Some(coverage));
+    Term { kind, clear: true, of: String::new(), coverage, level: None, relative: false, percent: false }
 }
 
 /// Words for uncertainties with their kind, and whether they mean nothing else.

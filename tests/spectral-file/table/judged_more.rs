@@ -134,7 +134,7 @@ fn the_file_itself_outweighs_the_name_of_its_folder() {
 fn abscissas_summed_up_by_a_program_are_placed_by_the_ends() {
     // Each head is as far off as single precision made it, less than a twentieth of a step.
     let heads = [400.0, 408.030, 416.060];
-    let lines: String = heads.iter().map(|head| format!("{head:.3} 1 2 3 4\n")).collect();
+    let lines = heads.map(|head| format!("{head:.3} 1 2 3 4\n")).concat();
     let text = format!(
         "##TITLE=x\n##JCAMP-DX=4.24\n##DATA TYPE=UV/VIS SPECTRUM\n##XUNITS=NANOMETERS\n##YUNITS=TRANSMITTANCE\n\
          ##FIRSTX=400.000\n##LASTX=422.000\n##NPOINTS=12\n##DELTAX=2.0\n##XFACTOR=1\n##YFACTOR=0.1\n##XYDATA=(X++(Y..Y))\n{lines}##END=\n"

@@ -51,8 +51,9 @@ pub(super) struct Around<'a> {
     pub(super) alone: bool,
 }
 
-/// A list of numbers with its key.
-type Named<'a> = (Cow<'a, str>, Vec<&'a str>);
+/// A list of numbers with its key, and wavelengths with the lists beside them.
+type List<'a> = (Cow<'a, str>, Vec<&'a str>);
+type Group<'a> = (Rc<[(f64, &'a str)]>, Vec<List<'a>>);
 
 /// Values at one wavelength, each with the name of its column, which may be empty.
 struct Row<'a> {
@@ -143,14 +144,22 @@ impl<'d, 'a, 'l, 'w> Walk<'d, 'a, 'l, 'w> {
                 None => {}
             }
         }
-        let marked = if own.is_some() { self.marked(&members, &mut lists)? } else { Vec::new() };
+        let mut groups = if own.is_some() { self.marked(&members, &mut lists)? } else { Vec::new() };
         others.retain(|(key, _)| !is_one(&words(key), BESIDE) && !is_one(&words(key), ABOUT));
         let all = own.is_some() && others.is_empty();
         here.wavelengths = own.map_or(here.wavelengths, |(_, wavelengths)| wavelengths.into());
         let only = others.len() == 1 && lists.is_empty();
-        self.side_by_side(lists, &here, all)?;
-        for (wavelengths, lists) in marked {
-            self.side_by_side(lists, &Around { wavelengths: wavelengths.into(), ..here.clone() }, false)?;
+        groups.insert(0, (here.wavelengths.clone(), lists));
+        for (wavelengths, mut lists) in groups {
+            if !wavelengths.is_empty() {
+                self.leave_out(&lists, wavelengths.len(), all)?;
+            }
+            lists.retain(|(_, pieces)| pieces.len() == wavelengths.len());
+            let row = |(at, wavelength): (usize, &(f64, &'a str))| {
+                let cells = lists.iter().map(|(key, pieces)| (key.clone(), pieces[at])).collect();
+                Ok(Row { sample: String::new(), wavelength: *wavelength, cells })
+            };
+            self.table(wavelengths.iter().enumerate().map(row), &here, true)?;
         }
         // Each is marked where it is first used.
         here.wavelengths = here.wavelengths.iter().map(|(nm, _)| (*nm, "")).collect();
@@ -173,12 +182,7 @@ impl<'d, 'a, 'l, 'w> Walk<'d, 'a, 'l, 'w> {
 
     /// Removes the wavelengths that are not the first of an object, which are no curve of others, with the lists beside them: `b_offsets`
     /// goes with `b_wavelengths`.
-    #[allow(clippy::type_complexity, reason = "wavelengths with the lists beside them, in one place")]
-    fn marked(
-        &mut self,
-        members: &Members<'a>,
-        lists: &mut Vec<Named<'a>>,
-    ) -> Result<Vec<(Vec<(f64, &'a str)>, Vec<Named<'a>>)>, ReadError> {
+    fn marked(&mut self, members: &Members<'a>, lists: &mut Vec<List<'a>>) -> Result<Vec<Group<'a>>, ReadError> {
         let mut all = Vec::new();
         let axes: Vec<_> = lists.extract_if(.., |(key, _)| header_terms::names_axis(&words(key))).collect();
         for (key, _) in axes {
@@ -188,25 +192,11 @@ impl<'d, 'a, 'l, 'w> Walk<'d, 'a, 'l, 'w> {
             let goes = |said: &str| said.starts_with(&format!("{mark} ")) || said.ends_with(&format!(" {mark}"));
             let own: Vec<_> = lists.extract_if(.., |(key, _)| !mark.is_empty() && goes(&words(key))).collect();
             match members.get(&key).filter(|_| !own.is_empty()) {
-                Some(value) => all.push((self.axis(&key, value)?.unwrap_or_default(), own)),
+                Some(value) => all.push((self.axis(&key, value)?.unwrap_or_default().into(), own)),
                 None => self.left.push(format!("“{key}”")),
             }
         }
         Ok(all)
-    }
-
-    /// Takes lists beside the wavelengths; `all` tells whether there is nothing else.
-    fn side_by_side(&mut self, mut lists: Vec<Named<'a>>, here: &Around<'a>, all: bool) -> Result<(), ReadError> {
-        let expected = here.wavelengths.len();
-        if expected > 0 {
-            self.leave_out(&lists, expected, all)?;
-        }
-        lists.retain(|(_, pieces)| pieces.len() == expected);
-        let row = |(at, wavelength): (usize, &(f64, &'a str))| {
-            let cells = lists.iter().map(|(key, pieces)| (key.clone(), pieces[at])).collect();
-            Ok(Row { sample: String::new(), wavelength: *wavelength, cells })
-        };
-        self.table(here.wavelengths.iter().enumerate().map(row), here, true)
     }
 
     /// Refuses lists that seem cut short beside wavelengths, or that are all there is; leaves out others, such as coordinates of colors.
