@@ -72,7 +72,7 @@ impl Clues {
         let spaced = text.replace('_', " ");
         self.absorbance = self.absorbance.or_else(|| header_terms::mentions_absorbance(&spaced).then_some(line));
         self.uncertainties = self.uncertainties.or_else(|| uncertainty_terms::is_title(&spaced).then_some(line));
-        self.material |= header_terms::names_material(&spaced);
+        self.material = self.material || header_terms::names_material(&spaced);
         self.other = self.other.or_else(|| Some((line, header_terms::not_converted(&spaced)?)));
     }
 

@@ -118,11 +118,12 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
             header.named_units.push((number, name.to_owned(), unit.to_owned()));
             continue;
         }
-        if named_above.is_none() {
-            // Two are prose, unless each has a unit.
-            let united = |names: &Vec<String>| layout.width > 2 || names.iter().all(|name| name.ends_with([')', ']']));
-            named_above =
-                names::split_otherwise(layout, body.unwrap_or(line)).filter(united).map(|names| (number, names));
+        // Two are prose, unless each has a unit.
+        let united = |names: &str| names.ends_with([')', ']']);
+        let text = body.unwrap_or(line);
+        if named_above.is_none() && (layout.width > 2 || united(text)) {
+            let names = names::split_otherwise(layout, text).filter(|names| layout.width > 2 || united(&names[0]));
+            named_above = names.map(|names| (number, names));
         }
         let line = body.map_or_else(|| whole(section, line, layout.dialect(), &mut lines), |_| line);
         if let Some((key, value)) = body.and_then(|body| body.split_once(':')) {

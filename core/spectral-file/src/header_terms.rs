@@ -114,7 +114,7 @@ pub(super) fn not_converted(text: &str) -> Option<&'static str> {
 
 /// Returns whether words name a property of a material that is none of the quantities read.
 pub(super) fn names_material(text: &str) -> bool {
-    has_word(&lower(text), "absorption|scattering|backscatter|backscattering|refractive|extinction|attenuation")
+    has_part(&lower(text), "absorption|scatter|refractive|extinction|attenuation")
 }
 
 /// Returns whether a line of prose says that values are absorbances, and names no other quantity.
@@ -348,15 +348,14 @@ pub(super) enum XUnit {
 
 /// The first unit of length, of wave number or of frequency in a piece of text.
 pub(super) fn x_unit(text: &str) -> Option<XUnit> {
+    const SHIFTS: &str = "raman shift|raman-shift|ramanshift|rel. 1/cm|rel. cm|relative wavenumber|relative wave number|shift (cm|\
+        shift [cm|shift/cm";
     let text = bracketed(lower(text)).replace('⁻', "-").replace('¹', "1");
     if let Some(unit) = bracketed_letter(&text) {
         return Some(unit);
     }
     // Shifts are differences of wave numbers.
-    if has_part(
-        &text,
-        "raman shift|raman-shift|ramanshift|rel. 1/cm|rel. cm|relative wavenumber|relative wave number|shift (cm|shift [cm|shift/cm",
-    ) {
+    if has_part(&text, "raman|cm|relative w") && has_part(&text, SHIFTS) {
         return Some(XUnit::Other);
     }
     let energies = has_part(&text, "energ|(ev)|[ev]") || words(&text).count() == 1;
