@@ -9,6 +9,7 @@ mod doubts;
 mod evidence;
 mod judged;
 mod judged_columns;
+mod judged_more;
 mod light_units;
 mod limits;
 mod parts;

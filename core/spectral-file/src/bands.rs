@@ -72,7 +72,8 @@ fn band(dialect: Dialect, name: &str) -> Option<Band<'_>> {
         let (unit, suffix) = unit(&name[end..]);
         let prefix = name[..start].trim();
         let bare = prefix.trim_end_matches(['_', '.', ' ', '-']).to_ascii_lowercase();
-        let before = bare.ends_with("nm").then_some(WavelengthUnit::Nanometer);
+        let numbers = || is_one(&bare, "wn|wavenumber").then_some(WavelengthUnit::Wavenumber);
+        let before = bare.ends_with("nm").then_some(WavelengthUnit::Nanometer).or_else(numbers);
         let one = Band { prefix, suffix, wavelength, unit: unit.or(before) };
         // A number with a unit, else the last.
         if found.is_none_or(|found| found.unit.is_none()) {
@@ -210,9 +211,15 @@ fn group(run: &[(usize, Band<'_>)], wrong: usize, stated: Option<WavelengthUnit>
     /// Sound wavelengths for each that is out of order; more of those are values.
     const SOUND: usize = 5;
     const LEAST_RANGE: f64 = 150.0;
+    const MOST_MICROMETERS: f64 = 25.0;
     let ((start, first), (end, _)) = (run.first().filter(|_| run.len() >= FEWEST)?, run.last()?);
     let values = || run.iter().map(|(_, band)| band.wavelength);
     let (min, max) = extent(values());
+    // Fractions may be micrometers or values: without a word only those in order are the former, and that is a guess.
+    let bare = first.prefix.is_empty() && first.unit.or(stated).is_none() && max <= MOST_MICROMETERS;
+    if bare && wrong > 0 {
+        return None;
+    }
     // Some of those with a known unit may be out of range.
     let in_range = first.unit.or(stated).is_some_and(|unit| {
         let (a, b) = (unit.nanometers(min), unit.nanometers(max));
@@ -224,7 +231,7 @@ fn group(run: &[(usize, Band<'_>)], wrong: usize, stated: Option<WavelengthUnit>
     // What a letter may count as well, such as patches or bands, counts by ones.
     let counted = values().zip(values().skip(1)).all(|(a, b)| b - a == 1.0) && max - min < LEAST_RANGE;
     let letter = is_one(first.prefix.trim_end_matches(['_', '.', ' ']).to_lowercase().as_str(), "a|b|l|band");
-    let known = first.is_known() || first.prefix.is_empty();
+    let known = first.is_known() || first.prefix.is_empty() && !bare;
     if counted && first.unit.is_none() && (letter || !known) {
         return None;
     }

@@ -31,7 +31,8 @@ impl<'a, T: AsRef<[u8]> + ?Sized> From<&'a T> for Source<'a> {
 pub(super) fn take(source: Source<'_>, grid: &mut Grid) {
     #[cfg(feature = "json")]
     metadata::take(source.metadata, grid);
-    grid.beside = grid.beside.take().or_else(|| of_path(source.path));
+    let names_other = grid.header.clues.material || grid.curves.iter().all(|curve| is_one(&curve.name, "n|k"));
+    grid.beside = grid.beside.take().or_else(|| of_path(source.path, names_other));
     let stem = file_stem(source.path).map(words).unwrap_or_default();
     let clues = &mut grid.header.clues;
     clues.uncertainties = clues.uncertainties.or(uncertainty_terms::is_title(&stem.join(" ")).then_some(0));
@@ -43,13 +44,16 @@ fn file_stem(path: &str) -> Option<&str> {
     Some(file.rsplit_once('.').map_or(file, |(stem, _)| stem))
 }
 
-/// The role that the name of a file suggests, else that of the folder it is in.
-fn of_path(path: &str) -> Option<Decided<Role>> {
+/// The role that the name of a file suggests, else that of the folder it is in, unless the file itself names something else.
+fn of_path(path: &str, names_other: bool) -> Option<Decided<Role>> {
     let stem = file_stem(path)?;
     let mut names = path.rsplit(['/', '\\']).skip(1);
     let folder = names.find(|name| !name.is_empty()).map(|name| ("folder", name));
     let (what, name, (role, agree)) =
         std::iter::once(("file", stem)).chain(folder).find_map(|(what, name)| Some((what, name, of_name(name)?)))?;
+    if what == "folder" && names_other && role != Role::Unknown {
+        return None;
+    }
     let name = excerpt(name);
     Some(if role == Role::Unknown {
         Decided::open(

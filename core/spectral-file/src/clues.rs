@@ -24,6 +24,8 @@ pub(super) struct Clues {
     pub(super) quantum: bool,
     /// A title or a line names what has none of the roles, and the reason.
     pub(super) other: Option<(usize, &'static str)>,
+    /// True if a line names a property of a material that is none of the quantities read.
+    pub(super) material: bool,
 }
 
 pub(super) const MEASURED: &str = "quantity|spectral quantity|measured quantity|technique|mode|data mode|photometric mode|\
@@ -70,6 +72,7 @@ impl Clues {
         let spaced = text.replace('_', " ");
         self.absorbance = self.absorbance.or_else(|| header_terms::mentions_absorbance(&spaced).then_some(line));
         self.uncertainties = self.uncertainties.or_else(|| uncertainty_terms::is_title(&spaced).then_some(line));
+        self.material = self.material || header_terms::names_material(&spaced);
         self.other = self.other.or_else(|| Some((line, header_terms::not_converted(&spaced)?)));
     }
 

@@ -28,6 +28,7 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
     let mut columns = Columns::new(layout, chosen.or_else(|| header_terms::axis(&header.names)));
     // A column with a name of its own holds no notes.
     let named = (0..layout.width.min(128)).filter(|column| header.name(*column).is_some());
+    columns.ended = section.text.ends_with(char::is_whitespace);
     columns.notes.gaps = named.fold(layout.gaps, |gaps, column| gaps & !(1 << column));
     let header_line = header.line.and_then(|names| Lines::of(section).find(|(number, _)| *number == names));
     let header_line = header_line.map(|(_, line)| line);
@@ -106,6 +107,8 @@ struct Columns {
     fewest_cells: usize,
     cells: Vec<Vec<f64>>,
     lines: Vec<usize>,
+    /// True if a blank or a line end stands behind the last row, which is then not torn within a number.
+    ended: bool,
     /// Rows that end before the last columns, as spreadsheets write them where only gaps would follow: each with its cells.
     short: Vec<(usize, usize)>,
     row: Vec<f64>,
@@ -284,8 +287,8 @@ impl Columns {
         Ok(())
     }
 
-    /// Refuses short rows that may be torn: all but two or more at the end of the table, each as short as the one before or shorter,
-    /// and runs beside a row with a gap, as where columns of several wavelengths are merged.
+    /// Refuses short rows that may be torn: all but those at the end of the table, each as short as the one before or shorter, and
+    /// runs beside a row with a gap, as where columns of several wavelengths are merged.
     fn check_short(&self, at: usize) -> Result<(), ReadError> {
         const MERGED: usize = 3;
         let rows = self.lines.len();
@@ -297,7 +300,8 @@ impl Columns {
             let ordered = |(row, cells): &(usize, usize)| {
                 (nm(*row) - nm(row - 1)) * (nm(rows - 1) - nm(0)) > 0.0 && *cells > at + 1
             };
-            let ends = run.len() > 1 && last + 1 == rows && run.windows(2).all(|pair| pair[1].1 <= pair[0].1);
+            let ends =
+                (run.len() > 1 || self.ended) && last + 1 == rows && run.windows(2).all(|pair| pair[1].1 <= pair[0].1);
             run.iter().all(ordered) && (ends || short.len() >= MERGED && (gap(first - 1) || gap(last + 1)))
         };
         match short.chunk_by(|a, b| a.0 + 1 == b.0).find(|run| !sound(run)) {
@@ -349,10 +353,12 @@ impl Columns {
         let axes = if is_told { axes::Axes::default() } else { find() };
         let texts = self.texts.columns.iter().filter(|text| text.other || text.unit.is_none()).map(|text| text.column);
         let texts: Vec<usize> = texts.filter(|&column| column < columns && column != at).collect();
+        // Behind no others, the chosen wavelengths are those of the columns before them.
+        let last = layout.wavelength_column.is_some() && values.iter().all(|values| is_empty(values));
         let is_left = |(column, values): &(usize, Vec<f64>)| {
             axes.more.is_empty()
                 && !is_empty(values)
-                && header.name(*column).is_some_and(|name| !header_terms::is_count(name))
+                && header.name(*column).map_or(last, |name| !header_terms::is_count(name))
         };
         let before = std::mem::take(&mut self.cells).into_iter().enumerate();
         let (left, skipped): (Vec<_>, Vec<_>) =

@@ -68,6 +68,8 @@ choices! {
         Wavenumber = "wave numbers in 1/cm", "1/cm";
         /// Frequencies ν in THz, taken as the vacuum wavelength c/ν with c = 299 792.458 nm THz.
         Terahertz = "frequencies in terahertz", "THz";
+        /// Frequencies in Hz, taken likewise.
+        Hertz = "frequencies in hertz", "Hz";
     }
 
     /// Separator of cells.

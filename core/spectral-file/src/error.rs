@@ -120,6 +120,13 @@ pub enum ReadError {
     TooFewSamples(usize),
     #[error("line {line}: wavelength {wavelength_nm} nm is outside 100 to 25000 nm: check the unit and the column")]
     WavelengthOutOfRange { line: usize, wavelength_nm: f64 },
+    #[error(
+        "line {line}: wavelength {wavelength_nm} nm is outside 100 to 25000 nm, but the numbers of column {column} are in order within: \
+         choose it as that of the wavelengths (--wavelength-column {column})"
+    )]
+    OtherWavelengthColumn { line: usize, wavelength_nm: f64, column: usize },
+    #[error("line {line}: {count} of {rows} rows are at {nm} nm, as in no spectrum: choose the column of wavelengths")]
+    OneWavelength { line: usize, nm: f64, count: usize, rows: usize },
     #[error("{what}: correct it, leave it empty if it is missing, or choose plain numbers to use it as it is")]
     ImpossibleValues {
         /// The line of the first, where known.
@@ -160,6 +167,8 @@ impl ReadError {
             | Self::TooGreat(line)
             | Self::TooFewSamples(line)
             | Self::WavelengthOutOfRange { line, .. }
+            | Self::OneWavelength { line, .. }
+            | Self::OtherWavelengthColumn { line, .. }
             | Self::TooManyCurves(line)
             | Self::TooManySamples(line) => Some(line),
             _ => None,

@@ -137,12 +137,20 @@ fn family(text: &str) -> Option<Family> {
         return Some(Family::Jcamp);
     }
     let list = start.starts_with('[') && start.trim_end().ends_with(']');
-    if start.starts_with('{') || list || commented_json(start) {
+    if begins_object(start) || list || commented_json(start) {
         return Some(Family::Json);
     }
     let head = &text[..floor(text)];
     let cgats = head.contains(CGATS_FORMAT) && head.lines().any(|line| line.trim() == CGATS_FORMAT);
     cgats.then_some(Family::Cgats)
+}
+
+/// Returns whether a text begins as an object of JSON does, or one with quotes of another kind. Others write remarks in braces.
+fn begins_object(start: &str) -> bool {
+    start.strip_prefix('{').is_some_and(|rest| {
+        let rest = rest.trim_start();
+        rest.is_empty() || rest.starts_with(['"', '\'', '}', '/'])
+    })
 }
 
 fn commented_json(start: &str) -> bool {

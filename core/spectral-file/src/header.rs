@@ -106,13 +106,24 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
         if header.take_fields(number, line, layout).is_some() {
             continue;
         }
+        if let Some((key, value)) = braced(line) {
+            if key == "Units, Wavelength Units" && layout.width == GLAZING.len() {
+                named_above = Some((number, GLAZING.map(str::to_owned).to_vec()));
+            }
+            header.take_comment(number, key, value);
+            continue;
+        }
         let (line, body) = (unmarked(line), comment(line));
         if let Some((name, unit)) = body.and_then(ecsv_column) {
             header.named_units.push((number, name.to_owned(), unit.to_owned()));
             continue;
         }
-        if layout.width > 2 && named_above.is_none() {
-            named_above = names::split_otherwise(layout, line).map(|names| (number, names));
+        // Two are prose, unless each has a unit.
+        let united = |names: &str| names.ends_with([')', ']']);
+        let text = body.unwrap_or(line);
+        if named_above.is_none() && (layout.width > 2 || united(text)) {
+            let names = names::split_otherwise(layout, text).filter(|names| layout.width > 2 || united(&names[0]));
+            named_above = names.map(|names| (number, names));
         }
         let line = body.map_or_else(|| whole(section, line, layout.dialect(), &mut lines), |_| line);
         if let Some((key, value)) = body.and_then(|body| body.split_once(':')) {
@@ -130,12 +141,23 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
             header.take_names(&near, layout, section);
         }
         if let Some((line, names)) = named_above.filter(|_| header.names.is_empty()) {
+            header.take_unit_cell(line, &names, layout);
             (header.line, header.names) = (Some(line), names);
         }
         header.settle_units(layout);
         heads::take(&mut header);
     }
     header
+}
+
+/// Columns of the International Glazing Database: transmittance, and reflectances of the front and of the back.
+const GLAZING: [&str; 4] = ["Wavelength", "T", "Rf", "Rb"];
+
+/// Key and value of a line as that database writes them: `{ Thickness } 3.048`, `{ Type: Monolithic }`.
+fn braced(line: &str) -> Option<(&str, &str)> {
+    let (inner, rest) = line.trim().strip_prefix("{ ")?.split_once('}')?;
+    let (key, value) = inner.split_once(':').unwrap_or((inner, rest));
+    Some((key.trim(), value.trim()))
 }
 
 /// Name and unit of a column in the head of an ECSV: `- {name: flux, unit: W / m2, datatype: float64}`.

@@ -112,6 +112,11 @@ pub(super) fn not_converted(text: &str) -> Option<&'static str> {
     }
 }
 
+/// Returns whether words name a property of a material that is none of the quantities read.
+pub(super) fn names_material(text: &str) -> bool {
+    has_part(&lower(text), "absorption|scatter|refractive|extinction|attenuation")
+}
+
 /// Returns whether a line of prose says that values are absorbances, and names no other quantity.
 pub(super) fn mentions_absorbance(text: &str) -> bool {
     const MOST_WORDS: usize = 15;
@@ -343,14 +348,21 @@ pub(super) enum XUnit {
 
 /// The first unit of length, of wave number or of frequency in a piece of text.
 pub(super) fn x_unit(text: &str) -> Option<XUnit> {
+    const SHIFTS: &str = "raman shift|raman-shift|ramanshift|rel. 1/cm|rel. cm|relative wavenumber|relative wave number|shift (cm|\
+        shift [cm|shift/cm";
     let text = bracketed(lower(text)).replace('⁻', "-").replace('¹', "1");
     if let Some(unit) = bracketed_letter(&text) {
         return Some(unit);
     }
+    // Shifts are differences of wave numbers.
+    if has_part(&text, "raman|cm|relative w") && has_part(&text, SHIFTS) {
+        return Some(XUnit::Other);
+    }
     let energies = has_part(&text, "energ|(ev)|[ev]") || words(&text).count() == 1;
     let unit = words(&text).find_map(|word| match word {
         "ev" | "kev" | "mev" if energies => Some(XUnit::Other),
-        "hz" | "ghz" | "phz" | "1/nm" | "1/m" | "m-1" => Some(XUnit::Other),
+        "hz" => Some(XUnit::Wavelength(WavelengthUnit::Hertz)),
+        "ghz" | "phz" | "1/nm" | "1/m" | "m-1" => Some(XUnit::Other),
         _ => WavelengthUnit::from_symbol(word).map(XUnit::Wavelength),
     });
     let wave_numbers = text.contains("wavenumber") || text.contains("wave number") || text == "wn";
@@ -452,7 +464,7 @@ pub(super) fn names_wavelengths(text: &str) -> bool {
         text.match_indices(symbol).any(|(at, _)| !text[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_'))
     };
     has_part(&text, "wavelength|wavenumber|wave number")
-        || (text.contains("frequency") && has_word(&text, "thz"))
+        || (text.contains("freq") && has_word(&text, "thz|hz"))
         || symbol("lambda")
         || symbol("λ")
         || ["w.length", "w_length"].iter().any(|name| text.starts_with(name))
@@ -470,7 +482,8 @@ pub(super) fn names_time(text: &str) -> bool {
 
 /// Returns whether a column's header names a quantity over which no spectrum runs: a time, a temperature, an angle, a place.
 pub(super) fn names_other_axis(text: &str) -> bool {
-    const QUANTITIES: &str = "time|temperature|temp|theta|2theta|angle|lon|longitude|lat|latitude|current|voltage";
+    const QUANTITIES: &str =
+        "time|temperature|temp|theta|2theta|angle|lon|longitude|lat|latitude|current|voltage|date|year|month|day|hour";
     const UNITS: &str = "s|sec|ms|msec|min|h|k|°c|°|deg|degree|degrees|ma|mg/kg";
     let text = lower(text);
     let unit =

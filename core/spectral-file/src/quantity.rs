@@ -211,7 +211,7 @@ pub(super) const DECISION: &str = "Spectral unit";
 
 /// The guess that lights over frequencies or wave numbers are per nanometer, if no unit states otherwise.
 fn unsaid(grid: &Grid, axis: &Decided<WavelengthUnit>) -> Option<Decision> {
-    let other = matches!(axis.value, WavelengthUnit::Terahertz | WavelengthUnit::Wavenumber);
+    let other = matches!(axis.value, WavelengthUnit::Terahertz | WavelengthUnit::Hertz | WavelengthUnit::Wavenumber);
     let per_nm = |curve: &RawCurve| {
         let unit = curve.unit.as_deref().and_then(units::parse);
         unit.is_some_and(|unit| matches!(unit.per, Per::Nanometer))

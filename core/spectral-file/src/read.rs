@@ -147,7 +147,7 @@ fn finish(
     wavelengths::to_nanometers(&mut grid, &wavelength_unit, &mut warnings)?;
     warn_of_unit(&wavelength_unit, &mut warnings);
     warnings.look(usize::MAX)?;
-    let descending = wavelengths::sort(&mut grid, &mut warnings);
+    let descending = wavelengths::sort(&mut grid, &mut warnings)?;
     let (range_nm, step_nm) = (grid.range_nm(), Steps::of(&grid.wavelengths));
     wavelengths::warn(&grid, step_nm, &mut warnings);
     warnings.look(usize::MAX)?;

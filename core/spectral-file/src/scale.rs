@@ -85,9 +85,11 @@ fn relabel(curve: &mut RawCurve, values: Values, role: Role) {
         Values::Plain | Values::Percent => return,
         Values::Absorbance => {
             curve.unit = Some("1".to_owned());
-            let name =
-                replaced(&curve.name, |word| (word == "abs" || word.starts_with("absorban")).then_some(fraction));
-            name.trim_end_matches('.').to_owned()
+            let by = |word: &str| (word == "abs" || word.starts_with("absorban")).then_some(fraction);
+            // `bxw2Absorbance` is two words.
+            let (before, word) = curve.name.split_at(curve.name.find("Absorban").unwrap_or(0));
+            let blank = if before.ends_with(char::is_alphanumeric) { " " } else { "" };
+            replaced(&format!("{before}{blank}{word}"), by).trim_end_matches('.').to_owned()
         }
         Values::Decibels => {
             // Decibels are powers above a milliwatt, or ratios.

@@ -46,6 +46,9 @@ pub(super) fn take(grid: &mut Grid, log: &mut Log<'_>) {
         named.then(|| uncertainty_terms::term(&curve.name, &curve.label)).flatten()
     };
     let mut terms: Vec<Option<Term>> = grid.curves.iter().map(term).collect();
+    for index in (1..terms.len()).filter(|_| !is_own) {
+        terms[index] = terms[index].take().or_else(|| of_difference(&grid.curves, index));
+    }
     if terms.iter().all(Option::is_none) {
         return;
     }
@@ -64,6 +67,23 @@ pub(super) fn take(grid: &mut Grid, log: &mut Log<'_>) {
         marks[index] = true;
     }
     retain(&mut grid.curves, &marks);
+}
+
+/// The term of a column such as `dR` or `d_refl` behind one of that name, or of that name with a number: `QE183`, `dQE`. Derivatives
+/// are called so too, but have signs, or units of their own.
+fn of_difference(curves: &[RawCurve], index: usize) -> Option<Term> {
+    const NEAR: usize = 100;
+    let own = &curves[index];
+    let name = own.name.strip_prefix('d')?.trim_start_matches(['_', ' ']);
+    let is_its = |curve: &&RawCurve| {
+        let stem = || curve.name.trim_end_matches(|c: char| c.is_ascii_digit()).trim_end_matches(['_', ' ']);
+        curve.named && (curve.name == name || stem() == name)
+    };
+    let of = curves[..index].iter().rev().take(NEAR).find(is_its).filter(|_| own.named && !name.is_empty())?;
+    let about = uncertainty_terms::without_mean(&uncertainty_terms::key(&of.name));
+    let term = Term { kind: Kind::Unsaid, clear: false, of: about, coverage: None, ..uncertainty_terms::expanded(1.0) };
+    let sound = fault(&own.values, &of.values).is_none() && !is_too_large(&of.values, &own.values);
+    Some(term).filter(|term| sound && !other_unit(of, own, term))
 }
 
 /// The uses that the heads of the program's own tables state: each uncertainty stands behind its curve.

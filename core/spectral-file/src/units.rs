@@ -292,6 +292,7 @@ impl WavelengthUnit {
             Self::Angstrom => clean(decimal::shifted(value, -1)),
             Self::Wavenumber => clean(1e7 / value),
             Self::Terahertz => clean(SPEED_OF_LIGHT_NM_THZ / value),
+            Self::Hertz => clean(SPEED_OF_LIGHT_NM_THZ * 1e12 / value),
         }
     }
 
@@ -304,6 +305,7 @@ impl WavelengthUnit {
             Self::Angstrom => decimal::shifted(nm, 1),
             Self::Wavenumber => clean(1e7 / nm),
             Self::Terahertz => clean(SPEED_OF_LIGHT_NM_THZ / nm),
+            Self::Hertz => clean(SPEED_OF_LIGHT_NM_THZ * 1e12 / nm),
         }
     }
 }

@@ -1,14 +1,16 @@
 //! Wavelengths: their unit, their range, their order, and repeats.
 
+use crate::columns::axes::ends;
 use crate::decimal::extent;
 use crate::decision::{Certainty, Decided, Dropped, WavelengthUnit};
 use crate::error::ReadError;
-use crate::grid::Grid;
+use crate::grid::{Grid, RawCurve};
 use crate::header_terms::{self, XUnit};
+use crate::no_curve::FEWEST_ROWS;
 use crate::options::ReadOptions;
 use crate::report::Steps;
 use crate::text::is_one;
-use crate::units::RANGE_NM;
+use crate::units::{RANGE_NM, plausible};
 use crate::warning::{LineList, Warning};
 use crate::watch::Log;
 
@@ -30,10 +32,10 @@ pub(super) fn unit(grid: &Grid, options: &ReadOptions) -> Result<Decided<Wavelen
     }
 }
 
-/// The unit of a column that is headed frequencies and no unit: MODTRAN means wave numbers by FREQ, else only the user knows.
+/// The unit of a column that is headed frequencies or energies and no unit: MODTRAN means wave numbers by FREQ, else only the user knows.
 fn unit_from_frequencies(grid: &Grid) -> Option<Result<Decided<WavelengthUnit>, ReadError>> {
     let name = grid.header.name(grid.wavelength_column?.saturating_sub(1))?;
-    is_one(&name.to_lowercase(), "freq|freq.|frequency|frequencies").then(|| {
+    is_one(&name.to_lowercase(), "freq|freq.|frequency|frequencies|energy|energies|photon energy").then(|| {
         let why = "MODTRAN writes wave numbers under FREQ";
         let guess = Decided::guess(WavelengthUnit::Wavenumber, why);
         if name == "FREQ" { Ok(guess) } else { Err(ReadError::NotWavelengths(grid.header.line.unwrap_or(1))) }
@@ -108,7 +110,13 @@ pub(super) fn to_nanometers(
     let nm = &grid.wavelengths;
     let out = |wavelength: &f64| !RANGE_NM.contains(wavelength);
     let Some(first) = nm.iter().position(out) else { return Ok(()) };
-    let error = ReadError::WavelengthOutOfRange { line: grid.line(first), wavelength_nm: nm[first] };
+    let (line, wavelength_nm) = (grid.line(first), nm[first]);
+    let within = |curve: &&RawCurve| ends(&curve.values).is_some_and(|(low, high)| plausible(low, high, false));
+    let turned = grid.curves.iter().find(within).filter(|curve| curve.values.len() > FEWEST_ROWS);
+    let error = match turned.and_then(|curve| curve.column) {
+        Some(column) => ReadError::OtherWavelengthColumn { line, wavelength_nm, column },
+        None => ReadError::WavelengthOutOfRange { line, wavelength_nm },
+    };
     let marked: Vec<bool> = nm.iter().map(out).collect();
     let count = marked.iter().filter(|out| **out).count();
     let within = marked.iter().position(|out| !out).unwrap_or(0);
@@ -132,8 +140,10 @@ pub(super) fn to_nanometers(
     Ok(())
 }
 
-/// Brings a grid into ascending order without repeats. Returns whether it was descending.
-pub(super) fn sort(grid: &mut Grid, log: &mut Log<'_>) -> bool {
+/// Brings a grid into ascending order without repeats. Returns whether it was descending. Refuses rows most of which are at one
+/// wavelength.
+pub(super) fn sort(grid: &mut Grid, log: &mut Log<'_>) -> Result<bool, ReadError> {
+    const FEWEST_SETTINGS: usize = 4;
     let wavelengths = &grid.wavelengths;
     let falls = wavelengths.windows(2).filter(|pair| pair[1] < pair[0]).count();
     let rises = wavelengths.windows(2).filter(|pair| pair[1] > pair[0]).count();
@@ -148,8 +158,15 @@ pub(super) fn sort(grid: &mut Grid, log: &mut Log<'_>) -> bool {
         order.sort_by(|&a, &b| wavelengths[a].total_cmp(&wavelengths[b]));
         grid.reorder(&order);
     }
+    // What more than half are is in the middle.
+    let (all, nm) = (&grid.wavelengths, grid.wavelengths[grid.wavelengths.len() / 2]);
+    let (from, to) = (all.partition_point(|other| *other < nm), all.partition_point(|other| *other <= nm));
+    let (count, rows) = (to - from, all.len());
+    if count >= FEWEST_SETTINGS && 2 * count > rows && !(from + 1..to).all(|row| grid.same_values(from, row)) {
+        return Err(ReadError::OneWavelength { line: grid.line(from), nm, count, rows });
+    }
     merge_repeats(grid, log);
-    descending
+    Ok(descending)
 }
 
 pub(super) fn warn(grid: &Grid, step: Steps, log: &mut Log<'_>) {

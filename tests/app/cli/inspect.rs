@@ -216,6 +216,7 @@ fn whatever_is_guessed_can_be_overruled() {
         ("5000", &["angstrom"], 500.0),
         ("20000", &["wavenumber"], 500.0),
         ("599.584916", &["terahertz", "thz"], 500.0),
+        ("599584916000000", &["hertz", "hz"], 500.0),
         ("5000", &["nm"], 5000.0),
     ] {
         let further = written.parse::<f64>().unwrap() * 1.2;
@@ -340,7 +341,7 @@ fn wrong_arguments_are_told_from_wrong_files() {
             &["table", "cgats", "jcamp", "tm27", "cxf", "rawtoaces", "dcamprof", "labels", "alternate", "camspec"],
         ),
         ("--delimiter", &["comma", "comma-space", "semicolon", "tab", "spaces", "elements"]),
-        ("--unit", &["nanometer", "micrometer", "angstrom", "wavenumber", "terahertz"]),
+        ("--unit", &["nanometer", "micrometer", "angstrom", "wavenumber", "terahertz", "hertz"]),
         ("--orientation", &["down", "across"]),
     ] {
         for name in names {

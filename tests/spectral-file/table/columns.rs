@@ -239,8 +239,12 @@ fn an_error_that_a_choice_caused_says_so() {
 }
 
 #[test]
-fn a_named_column_of_the_same_numbers_is_a_curve() {
-    assert_eq!(names(&ok("nm,level,A\n400,400,1\n410,410,2\n420,420,3\n")), ["level", "A"]);
+fn a_column_of_the_wavelengths_again_is_no_curve() {
+    let level = ok("nm,level,A\n400,400,1\n410,410,2\n420,420,3\n");
+    assert_eq!(names(&level), ["A"]);
+    assert!(level.warnings.iter().any(|warning| matches!(warning, Warning::OtherAxes { .. })), "{:?}", level.warnings);
+    let pairs = ok("x1_data,y1_data,x2_data,y2_data\n400,1,400,5\n410,2,410,6\n420,3,420,7\n");
+    assert_eq!((names(&pairs), pairs.curves[1].values[0]), (vec!["y1_data", "y2_data"], 5.0));
     assert_eq!(names(&ok("lambda,A,lambda,B\n400,1,400,2\n410,1,410,2\n420,1,420,2\n")), ["A", "B"]);
     assert_eq!(ok("400,1,400,2\n410,1,410,3\n420,2,420,2\n").curves.len(), 2);
 }

@@ -81,7 +81,7 @@ fn pairs_of_columns() {
 fn a_wavelength_column_without_wavelengths() {
     let choose = |column| {
         let options = ReadOptions { wavelength_column: Some(column), ..ReadOptions::default() };
-        with("380,,0.1\n390,,0.2\n", &options)
+        with("380,,0.01\n390,,0.02\n", &options)
     };
     for column in [0, 2, 4, usize::MAX] {
         assert_eq!(choose(column), Err(ReadError::NotWavelengthColumn { column, columns: 3 }));

@@ -221,8 +221,11 @@ fn a_last_column_may_end_early_but_no_row_is_torn() {
     assert_eq!((merged.curves[0].values.len(), merged.curves[1].values.len()), (5, 3));
     let uneven = |line| ReadError::UnevenRow { line, found: 2, expected: 3 };
     assert_eq!(error("nm,A,B\n400,1,2\n410,2\n420,3,4\n430,4\n440,5\n"), uneven(3));
-    // The last row alone may be cut.
-    assert_eq!(error("nm,A,B\n400,1,2\n410,2,3\n420,3,4\n430,4\n"), uneven(5));
+    // The last row alone may be cut, unless its line is whole.
+    assert_eq!(error("nm,A,B\n400,1,2\n410,2,3\n420,3,4\n430,4"), uneven(5));
+    let last = ok("nm,A,B\n400,1,2\n410,2,3\n420,3,4\n430,4\n");
+    assert_eq!((last.curves[0].values.len(), last.curves[1].values.len()), (4, 3));
+    assert!(matches!(last.warnings[..], [Warning::CommasOnly, Warning::Gaps { cells: 1, .. }]), "{:?}", last.warnings);
     assert_eq!(error("nm A B\n400 1 2\n410 2 3\n420 3 4\n430 4\n440 5\n"), uneven(5));
 }
 

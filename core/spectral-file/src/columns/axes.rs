@@ -86,8 +86,6 @@ pub(super) fn column_list(header: &Header, columns: &[usize]) -> String {
 
 fn kind(header: &Header, at: usize, index: usize, wavelengths: &[f64], column: &[f64]) -> Kind {
     let name = header.name(at + 1 + index);
-    // A column with a name of its own is a curve, even if it happens to hold the same numbers.
-    let alike = name.is_none_or(|name| header.name(at) == Some(name));
     let scale = || {
         let label = |name| header_terms::is_label(name) && tells_rows_apart(column);
         name.is_some_and(|name| {
@@ -102,7 +100,8 @@ fn kind(header: &Header, at: usize, index: usize, wavelengths: &[f64], column: &
         {
             Kind::Wavelengths
         }
-        () if wavelengths.len() > 1 && column == wavelengths && alike => Kind::Wavelengths,
+        // Whatever it is called.
+        () if wavelengths.len() > 1 && column == wavelengths => Kind::Wavelengths,
         () => Kind::Value,
     }
 }
@@ -113,7 +112,7 @@ pub(super) fn unit(header: &Header, column: usize) -> Option<XUnit> {
 }
 
 /// The ends of numbers that rise or fall all the way, from the first to the last one.
-fn ends(values: &[f64]) -> Option<(f64, f64)> {
+pub(crate) fn ends(values: &[f64]) -> Option<(f64, f64)> {
     let start = values.iter().position(|value| !value.is_nan())?;
     let end = values.iter().rposition(|value| !value.is_nan())?;
     let values = &values[start..=end];

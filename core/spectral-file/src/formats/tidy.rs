@@ -38,6 +38,9 @@ const DELIMITERS: [Delimiter; 5] =
 const KEYS: &str = "sample|samples|specimen|individual|replicate|rep|species|id|sampleid|plot|plant|leaf|patch|spot|scan|spectrum|\
     group|treatment|idx|measurement|filter|lamp|subject|tree|flower|curve|series|variable|name";
 
+/// Names of those that do where there are no others.
+const ANGLES: &str = "degree|degrees|angle|theta|phi";
+
 /// Layout of such a table, as its first lines suggest it.
 struct Plan {
     dialect: Dialect,
@@ -81,13 +84,16 @@ impl Plan {
         let bare = dialect.cells(first).take(names.len() + 2).count() == names.len() + 1;
         let names = if bare { [vec![String::new()], names].concat() } else { names };
         let axis = axis + usize::from(bare);
-        let is_key = |(column, cell): &(usize, &str)| {
+        let is_key = |(column, cell): &(usize, &str), named: &str| {
             let text = dialect.parse(cell) == Cell::Text && dialect.parse_united(cell).is_none();
             let name = lower(names.get(*column).map_or("", String::as_str)).replace(['_', '.'], " ");
-            *column != axis && (text || has_word(&name, KEYS) && header_terms::quantity(&name).is_none())
+            *column != axis && (text || has_word(&name, named) && header_terms::quantity(&name).is_none())
         };
-        let cells = dialect.cells(first).take(names.len()).enumerate();
-        let keys: Vec<usize> = cells.filter(is_key).map(|(column, _)| column).collect();
+        let keys = |named: &str| -> Vec<usize> {
+            let cells = dialect.cells(first).take(names.len()).enumerate();
+            cells.filter(|cell| is_key(cell, named)).map(|(column, _)| column).collect()
+        };
+        let keys = Some(keys(KEYS)).filter(|keys| !keys.is_empty()).unwrap_or_else(|| keys(ANGLES));
         let is_row = |(_, row): &(usize, &str)| {
             let mut cells = dialect.cells(row).take(names.len() + 1).enumerate();
             let sound = |(at, cell): (usize, &str)| keys.contains(&at) || dialect.parse(cell) != Cell::Text;

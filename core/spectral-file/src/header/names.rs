@@ -190,7 +190,7 @@ impl Header {
         }
     }
 
-    fn take_unit_cell(&mut self, number: usize, cells: &[String], layout: &Layout) {
+    pub(super) fn take_unit_cell(&mut self, number: usize, cells: &[String], layout: &Layout) {
         let chosen = layout.wavelength_column.map(|column| column.saturating_sub(1));
         let column = chosen.or_else(|| header_terms::axis(cells)).unwrap_or(0);
         if let Some(unit) = cells.get(column).and_then(|cell| header_terms::x_unit(cell)) {

@@ -136,12 +136,13 @@ pub(super) struct InspectArguments {
 const READING: &str = "Overrides";
 
 const ROLES: [&str; 5] = ["camera", "reflectance", "transmittance", "illuminant", "unknown"];
-const UNITS: [(&str, &[&str]); 5] = [
+const UNITS: [(&str, &[&str]); 6] = [
     ("nanometer", &["nm"]),
     ("micrometer", &["um", "µm"]),
     ("angstrom", &[]),
     ("wavenumber", &[]),
     ("terahertz", &["thz"]),
+    ("hertz", &["hz"]),
 ];
 const DELIMITERS: [&str; 6] = ["comma", "comma-space", "semicolon", "tab", "spaces", "elements"];
 const MARKS: [&str; 2] = ["point", "comma"];

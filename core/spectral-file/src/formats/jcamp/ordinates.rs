@@ -149,12 +149,15 @@ impl Data<'_> {
     /// The ordinates in equal steps between the ends of the header, where their number is the announced one and the heads of lines
     /// are those of the values there or of the neighbors, as far as all are rounded.
     fn by_ends(&self, axis: &Axis) -> Option<Placed> {
+        const SUMMED: f64 = 0.05;
         let (last, points) = (axis.last?, axis.points.filter(|points| *points == self.ordinates.len())?);
         let step = (last.value - axis.first.value) / points.saturating_sub(1) as f64;
         let grid = Grid { axis, step, digits: Digits::Loose };
         let off = |row: &Row| (row.head.value * axis.factor - grid.abscissa(row.from as f64)).abs();
         let digits = |row: &Row| row.head.digit * axis.factor.abs() + axis.first.digit + last.digit;
-        let near = |row: &Row| off(row).min((off(row) - step.abs()).abs()) <= digits(row);
+        // What a program summed up in single precision names the place all the same.
+        let summed = |row: &Row| off(row) <= SUMMED * step.abs();
+        let near = |row: &Row| off(row).min((off(row) - step.abs()).abs()) <= digits(row) || summed(row);
         if self.rows.len() < 2 || !self.rows.iter().all(near) {
             return None;
         }

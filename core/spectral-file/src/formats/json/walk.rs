@@ -51,6 +51,10 @@ pub(super) struct Around<'a> {
     pub(super) alone: bool,
 }
 
+/// A list of numbers with its key, and wavelengths with the lists beside them.
+type List<'a> = (Cow<'a, str>, Vec<&'a str>);
+type Group<'a> = (Rc<[(f64, &'a str)]>, Vec<List<'a>>);
+
 /// Values at one wavelength, each with the name of its column, which may be empty.
 struct Row<'a> {
     /// The name of the sample that it is of.
@@ -140,21 +144,25 @@ impl<'d, 'a, 'l, 'w> Walk<'d, 'a, 'l, 'w> {
                 None => {}
             }
         }
+        let mut groups = if own.is_some() { self.marked(&members, &mut lists)? } else { Vec::new() };
         others.retain(|(key, _)| !is_one(&words(key), BESIDE) && !is_one(&words(key), ABOUT));
         let all = own.is_some() && others.is_empty();
         here.wavelengths = own.map_or(here.wavelengths, |(_, wavelengths)| wavelengths.into());
-        if !here.wavelengths.is_empty() {
-            self.leave_out(&lists, here.wavelengths.len(), all)?;
+        let only = others.len() == 1 && lists.is_empty();
+        groups.insert(0, (here.wavelengths.clone(), lists));
+        for (wavelengths, mut lists) in groups {
+            if !wavelengths.is_empty() {
+                self.leave_out(&lists, wavelengths.len(), all)?;
+            }
+            lists.retain(|(_, pieces)| pieces.len() == wavelengths.len());
+            let row = |(at, wavelength): (usize, &(f64, &'a str))| {
+                let cells = lists.iter().map(|(key, pieces)| (key.clone(), pieces[at])).collect();
+                Ok(Row { sample: String::new(), wavelength: *wavelength, cells })
+            };
+            self.table(wavelengths.iter().enumerate().map(row), &here, true)?;
         }
-        lists.retain(|(_, pieces)| pieces.len() == here.wavelengths.len());
-        let row = |(at, wavelength): (usize, &(f64, &'a str))| {
-            let cells = lists.iter().map(|(key, pieces)| (key.clone(), pieces[at])).collect();
-            Ok(Row { sample: String::new(), wavelength: *wavelength, cells })
-        };
-        self.table(here.wavelengths.iter().enumerate().map(row), &here, true)?;
         // Each is marked where it is first used.
         here.wavelengths = here.wavelengths.iter().map(|(nm, _)| (*nm, "")).collect();
-        let only = others.len() == 1 && lists.is_empty();
         for (key, value) in others {
             let said = words(key);
             // The only member of one among many that has a name says no more of it.
@@ -170,6 +178,25 @@ impl<'d, 'a, 'l, 'w> Walk<'d, 'a, 'l, 'w> {
             self.value(value, inner, depth + 1)?;
         }
         Ok(())
+    }
+
+    /// Removes the wavelengths that are not the first of an object, which are no curve of others, with the lists beside them: `b_offsets`
+    /// goes with `b_wavelengths`.
+    fn marked(&mut self, members: &Members<'a>, lists: &mut Vec<List<'a>>) -> Result<Vec<Group<'a>>, ReadError> {
+        let mut all = Vec::new();
+        let axes: Vec<_> = lists.extract_if(.., |(key, _)| header_terms::names_axis(&words(key))).collect();
+        for (key, _) in axes {
+            let said = words(&key);
+            let mark =
+                said.split(' ').filter(|word| !header_terms::names_wavelengths(word)).collect::<Vec<_>>().join(" ");
+            let goes = |said: &str| said.starts_with(&format!("{mark} ")) || said.ends_with(&format!(" {mark}"));
+            let own: Vec<_> = lists.extract_if(.., |(key, _)| !mark.is_empty() && goes(&words(key))).collect();
+            match members.get(&key).filter(|_| !own.is_empty()) {
+                Some(value) => all.push((self.axis(&key, value)?.unwrap_or_default().into(), own)),
+                None => self.left.push(format!("“{key}”")),
+            }
+        }
+        Ok(all)
     }
 
     /// Refuses lists that seem cut short beside wavelengths, or that are all there is; leaves out others, such as coordinates of colors.
