@@ -211,10 +211,10 @@ impl Problem {
             let fields = fields(shot.len());
             for (i, j) in shot.clone().flat_map(|i| shot.clone().map(move |j| (i, j))) {
                 let own = if i == j { spread.powi(-2) } else { 0.0 };
-                let of_field = |(u, s): &(Vec<f64>, f64)| {
-                    u[i - shot.start] * u[j - shot.start] * (s.powi(-2) - spread.powi(-2))
-                };
-                precision[(self.bright() + i) * size + self.bright() + j] = own + fields.iter().map(of_field).sum::<f64>();
+                let of_field =
+                    |(u, s): &(Vec<f64>, f64)| u[i - shot.start] * u[j - shot.start] * (s.powi(-2) - spread.powi(-2));
+                precision[(self.bright() + i) * size + self.bright() + j] =
+                    own + fields.iter().map(of_field).sum::<f64>();
             }
         }
     }
