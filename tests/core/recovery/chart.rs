@@ -206,7 +206,8 @@ fn falling_off(by_maker: bool, gray: fn(usize) -> f64) -> [f64; 2] {
     let one = |(seed, (name, sensor)): (usize, &(String, Sensor))| {
         let is_omitted = |other: &str| if by_maker { maker(other) == maker(name) } else { model(other) == model(name) };
         let library = library_without(&cameras, is_omitted);
-        let mut recorded = shot(sensor, &light, Conditions { uneven: 0.0, ..PHOTOGRAPH }, &mut SplitMix64::new(seed as u64));
+        let mut recorded =
+            shot(sensor, &light, Conditions { uneven: 0.0, ..PHOTOGRAPH }, &mut SplitMix64::new(seed as u64));
         let left = |at: usize| fall_off(at) / gray(at);
         for (at, (patch, noise)) in recorded.patches.iter_mut().zip(&mut recorded.noise).enumerate() {
             patch.rgb = patch.rgb.map(|value| Signal::new(value.value().unwrap() * left(at), f64::INFINITY));
@@ -224,7 +225,7 @@ fn falling_off(by_maker: bool, gray: fn(usize) -> f64) -> [f64; 2] {
 }
 
 fn fall_off(at: usize) -> f64 {
-    1.0 + 0.16 * (((at % 6) as f64 / 5.0 + (at / 6) as f64 / 3.0) / 2.0 - 0.5)
+    1.0 + 0.08 * ((at % 6) as f64 / 5.0 + (at / 6) as f64 / 3.0 - 1.0)
 }
 
 /// As it is 3.0 %, with a gray frame 3.0 % (5.6 and 5.9 % without the maker); the patches are known to 0.2 %. So no gray frame is asked for.
