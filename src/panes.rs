@@ -34,6 +34,7 @@ pub mod spectra;
 pub mod statistics;
 pub mod status_bar;
 pub mod swatches;
+pub mod tables;
 pub mod tolerance;
 pub mod widgets;
 
@@ -62,6 +63,7 @@ pub const ALL: &[&Pane] = &[
     &correction::PANE,
     &metamers::PANE,
     &recorded::PANE,
+    &tables::PANE,
     &library::PANE,
     &measure::PANE,
     &import::PANE,

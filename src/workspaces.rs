@@ -46,6 +46,8 @@ impl PaneKind {
     pub const LIGHT: Self = Self::new("Light");
     pub const CORRECTION: Self = Self::new("Correction");
     pub const RECORDED: Self = Self::new("Recorded");
+    /// All tables of a camera's model.
+    pub const TABLES: Self = Self::new("Tables");
     pub const METAMERS: Self = Self::new("Metamers");
     pub const TOLERANCE: Self = Self::new("Tolerance");
 
@@ -56,7 +58,12 @@ impl PaneKind {
             Self::INSPECTOR => Slot::Selection,
             Self::SETTINGS => Slot::Settings,
             Self::METRICS => Slot::List,
-            Self::REPORT_CARD | Self::HEAD_TO_HEAD | Self::CORRECTION | Self::METAMERS | Self::RECORDED => Slot::Page,
+            Self::REPORT_CARD
+            | Self::HEAD_TO_HEAD
+            | Self::CORRECTION
+            | Self::METAMERS
+            | Self::RECORDED
+            | Self::TABLES => Slot::Page,
             Self::LIBRARY | Self::MEASURE => Slot::Sets,
             Self::IMPORT => Slot::Text,
             Self::INTERPRETATION => Slot::Reading,

@@ -12,6 +12,7 @@ use crate::catalog::chart_picture::is_picture;
 use crate::catalog::import::{Imported, imported};
 use crate::catalog::likeness::Likeness;
 use crate::catalog::opened::{CLIPBOARD, OpenFile, OpenedEvent, Request, Why};
+use crate::catalog::spectral_images::is_spectral_exr;
 use crate::command::Command;
 use crate::document::imported::{Fingerprint, ImportOverrides, ImportedSet, Role};
 use crate::document::render::MeshChoice;
@@ -108,7 +109,7 @@ impl ChromascopeApp {
     fn take_pictures(&mut self, requests: &mut Vec<Request>) {
         let mut pictures = Vec::new();
         requests.retain(|request| match request {
-            Request::Path(path) if is_picture(path) => {
+            Request::Path(path) if is_picture(path) && !is_spectral_exr(path) => {
                 pictures.push(path.clone());
                 false
             }
@@ -122,9 +123,7 @@ impl ChromascopeApp {
     pub(super) fn measure_from(&mut self, path: PathBuf) {
         self.end_tour();
         self.recorded.read_again(&path);
-        if !self.view.recorded.photos.contains(&path) {
-            self.view.recorded.photos.push(path.clone());
-        }
+        self.view.recorded.photos.insert(path.clone(), None);
         self.view.recorded.photo = Some(path);
         self.show_workspace(Workspace::Data);
         self.view.show(PaneKind::MEASURE);

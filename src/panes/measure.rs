@@ -3,6 +3,7 @@
 mod picture;
 mod results;
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -12,6 +13,7 @@ use egui::{Label, Rect, RichText, TextEdit, Ui};
 use super::context::{Pane, PaneContext};
 use crate::action::Action;
 use crate::command::Command;
+use crate::document::imported::Fingerprint;
 use crate::document::measurement::{MeasuredShot, Measurement};
 use crate::document::{Light, SetKind};
 use crate::format::{file_name, sentence};
@@ -25,7 +27,7 @@ use crate::workspaces::PaneKind;
 pub const PANE: Pane = Pane::new(PaneKind::MEASURE, "Measure", show).tab("Measure a camera");
 
 const ABOUT: &str = "Photograph a chart of 24 patches (ColorChecker), evenly lit, slightly underexposed and slightly out of \
-    focus, as a raw file, and drop it here: DNG, or a linear 16-bit TIFF or PNG. The camera's sensitivities are estimated from \
+    focus, as a raw file, and drop it here: DNG, a linear 16-bit TIFF or PNG, or OpenEXR. The camera's sensitivities are estimated from \
     its raw values with those of the library as a prior: good for color, a guess where the band is wide.";
 const UNKNOWN: &str = "Daylight of unknown temperature";
 const PICK: f32 = 220.0;
@@ -42,10 +44,19 @@ struct State {
     taken: Option<PathBuf>,
     /// The last question, and what it is of.
     asked: Option<(Measurement, MeasuredCameraQuery)>,
-    /// The last answer with its question, and the patches of all pictures.
-    shown: Option<(MeasuredCameraQuery, Arc<ChartMeasurement>, RecordedSet)>,
+    shown: Option<Shown>,
     /// True if the answer is to be used in spite of what is doubtful about it.
     is_accepted: bool,
+}
+
+/// The last answer, with what is made of it once.
+#[derive(Clone)]
+struct Shown {
+    query: MeasuredCameraQuery,
+    measured: Arc<ChartMeasurement>,
+    /// Patches of all pictures.
+    recorded: RecordedSet,
+    doubts: Arc<[String]>,
 }
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
@@ -56,7 +67,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         }
         results::add(ui, context);
         if ui.button("Start anew").on_hover_text("Remove all pictures of this measurement").clicked() {
-            (context.view.recorded.photo, context.view.recorded.photos) = (None, Vec::new());
+            (context.view.recorded.photo, context.view.recorded.photos) = (None, BTreeMap::new());
             change(context, "Start a measurement anew", |measurement| *measurement = Measurement::default());
         }
     });
@@ -114,8 +125,9 @@ fn shots(ui: &mut Ui, context: &mut PaneContext<'_>) {
 fn one_shot(ui: &mut Ui, index: usize, shot: &MeasuredShot, context: &mut PaneContext<'_>) {
     let (scene, theme) = (context.scene, context.theme);
     let recorded = &mut context.view.recorded;
-    match recorded.photos.iter().find(|path| file_name(path) == shot.file) {
-        Some(path) if recorded.photo.as_ref() != Some(path) => {
+    let is_it = |path: &PathBuf, of: Option<Fingerprint>| of.is_some_and(|of| shot.is_of(of, &file_name(path)));
+    match recorded.photos.iter().find(|(path, of)| is_it(path, **of)) {
+        Some((path, _)) if recorded.photo.as_ref() != Some(path) => {
             if ui.button(&shot.file).on_hover_text("Show this picture").clicked() {
                 recorded.photo = Some(path.clone());
             }
@@ -158,6 +170,10 @@ fn one_shot(ui: &mut Ui, index: usize, shot: &MeasuredShot, context: &mut PaneCo
         change(context, "Chart of a picture", |measurement| measurement.shots[index].chart = name);
     }
     if ui.button("Remove").on_hover_text("Remove this picture from the measurement").clicked() {
+        // Else it would be taken again beside the next one.
+        let recorded = &mut context.view.recorded;
+        recorded.photos.retain(|path, of| !is_it(path, *of));
+        recorded.photo.take_if(|path| !recorded.photos.contains_key(path));
         change(context, "Remove a picture", |measurement| {
             measurement.shots.remove(index);
         });

@@ -1,5 +1,6 @@
 //! View state of the Recorded pane, and of the page that measures a camera.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -9,6 +10,7 @@ use chromascope_core::query::{RecordedSet, Shared};
 use chromascope_core::spectral::GridSpectrum;
 
 use crate::catalog::recorded_store::RecordedFile;
+use crate::document::imported::Fingerprint;
 use crate::scene::recorded::RankedCamera;
 
 #[derive(Clone, Debug, Default)]
@@ -18,8 +20,8 @@ pub struct RecordedView {
     pub path: Option<PathBuf>,
     /// Picture of a chart that is shown where a camera is measured.
     pub photo: Option<PathBuf>,
-    /// All such pictures that were opened.
-    pub photos: Vec<PathBuf>,
+    /// All such pictures that were opened, with the contents of those that were read.
+    pub photos: BTreeMap<PathBuf, Option<Fingerprint>>,
     pub freedom: Freedom,
     /// Raw value from which on a channel of a table is clipped; 0 for none.
     pub clip: f64,

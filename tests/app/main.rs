@@ -38,6 +38,7 @@ mod keyboard;
 mod library;
 mod lights;
 mod measure;
+mod measured_doubts;
 mod meshes;
 mod metrics;
 mod opened;

@@ -6,6 +6,7 @@ use chromascope::action::Action;
 use chromascope::action::history::History;
 use chromascope::app::ChromascopeApp;
 use chromascope::command::Command;
+use chromascope::document::render::MeshChoice;
 use chromascope::document::session::{from_json, to_json};
 use chromascope::document::{Document, Light, SensorId, SetKind};
 use chromascope::files::Files;
@@ -207,6 +208,85 @@ fn pictures_dropped_together_are_all_measured() {
     // The one that is not shown can be.
     window.get_by_label("first.tiff").click();
     until(&mut window, "Picture: first.tiff");
+}
+
+/// Cameras number their files anew: pictures are told apart by what they hold.
+#[test]
+fn pictures_of_one_name_in_two_folders_are_two() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let in_folder = |name: &str, gap: u32| {
+        std::fs::create_dir_all(folder.join(name)).unwrap();
+        picture(&format!("{name}/DSC_0001.png"), gap)
+    };
+    let (day, lamp) = (in_folder("day", 12), in_folder("lamp", 14));
+    let mut window = window();
+    let holds = |window: &mut Window, wanted: &[&str]| {
+        waiting::until("the pictures", || {
+            window.run_steps(2);
+            let shots = &window.state().history.document().measurement.shots;
+            let names: Vec<&str> = shots.iter().map(|shot| shot.file.as_str()).collect();
+            if names == wanted { Ok(()) } else { Err(format!("{names:?}")) }
+        });
+    };
+    window.state_mut().push(Command::OpenPath(day.clone()));
+    holds(&mut window, &["DSC_0001.png"]);
+    // As in documents of earlier versions, which know names only.
+    let mut json: serde_json::Value =
+        serde_json::from_str(&to_json(window.state().history.document()).unwrap()).unwrap();
+    json["measurement"]["shots"][0].as_object_mut().unwrap().remove("contents").unwrap();
+    let old = from_json(&json.to_string()).unwrap().measurement;
+    assert!(old.shots[0].contents.is_none() && old.origin().is_some());
+    assert_eq!(old.place(window.state().history.document().measurement.origin().unwrap(), "DSC_0001.png"), Some(0));
+    for path in [lamp, day] {
+        window.state_mut().push(Command::OpenPath(path));
+        holds(&mut window, &["day/DSC_0001.png", "lamp/DSC_0001.png"]);
+    }
+    window.get_by_label("lamp/DSC_0001.png").click();
+    until(&mut window, "Picture: lamp/DSC_0001.png");
+}
+
+/// An OpenEXR is a spectral image by its channels, else a picture.
+#[test]
+fn an_openexr_is_opened_by_what_it_holds() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let rgb = image::open(picture("plain_source.png", 12)).unwrap().to_rgb32f();
+    rgb.save(folder.join("plain.exr")).unwrap();
+    let mut window = window();
+    window.state_mut().push(Command::OpenPath(folder.join("plain.exr")));
+    until(&mut window, "Choose the light that plain.exr");
+    let spectral = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/spectral-image/data/openexr_reflectance.exr");
+    window.state_mut().push(Command::OpenPath(spectral.clone()));
+    waiting::until("the image", || {
+        window.run_steps(2);
+        let shown = &window.state().history.document().render.mesh;
+        if *shown == MeshChoice::Image(spectral.clone()) { Ok(()) } else { Err(format!("{shown:?}")) }
+    });
+}
+
+/// The tables of the selected camera's model, with what they differ by.
+#[test]
+fn tables_of_one_model_stand_on_a_page() {
+    let mut window = window();
+    let id = SensorId { kind: SetKind::Camera, name: "Nikon D70 (A.M.P.A.S.)".to_owned() };
+    window.state_mut().push(Command::Select(PlotItem::Sensor(id)));
+    window.state_mut().push(Command::GoTo(PaneKind::TABLES));
+    until(&mut window, "each through its own matrix");
+    for name in ["A.M.P.A.S.", "2007 figure", "UPenn 2011", "ΔE*00 from first", "blue at 400 nm"] {
+        assert!(window.query_all_by_label_contains(name).next().is_some(), "{name}");
+    }
+    // SCRATCH
+    for (size, theme) in [
+        ([900.0, 600.0], egui::Theme::Dark),
+        ([900.0, 600.0], egui::Theme::Light),
+        ([1280.0, 800.0], egui::Theme::Light),
+        ([1280.0, 800.0], egui::Theme::Dark),
+    ] {
+        window.set_size(size.into());
+        window.ctx.set_theme(theme);
+        window.run_steps(8);
+        until(&mut window, "each through its own matrix");
+        window.render().unwrap().save(format!("/tmp/m_tables_{}_{theme:?}.png", size[0])).unwrap();
+    }
 }
 
 #[test]

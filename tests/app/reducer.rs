@@ -41,6 +41,7 @@ fn own(name: &str, role: Role) -> ImportedSet {
         per_photon: false,
         channels: [0, 1, 2],
         curves: ["r", "g", "b"].map(curve).into(),
+        measured: None,
         covariance: None,
         decisions: Vec::new(),
     }

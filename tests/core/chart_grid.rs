@@ -1,7 +1,6 @@
 //! Patches of a chart in a picture, by the corners of its grid.
 
 use chromascope_core::camera::chart_grid::{ChartGrid, ChartGridError};
-use chromascope_core::camera::chart_light::{evened_by_gray, neutral_slope};
 use chromascope_math::random::SplitMix64;
 
 /// A picture of 6 × 4 patches in perspective: patch i has (i + 1, 2(i + 1), 3(i + 1)), everything else −1.
@@ -74,24 +73,4 @@ fn patches_have_noise_and_shares_of_clipped_pixels() {
         assert!(patch.mean[1] == 1.0 && patch.mean[2].is_nan() && !patch.is_dark(0, 990.0) && patch.is_dark(0, 1e4));
         assert_eq!((patch.clipped_share[1], patch.clipped[1]), if k == 0 { (0.01, true) } else { (0.0, false) });
     }
-}
-
-#[test]
-fn light_is_evened_by_gray_and_known_from_neutrals() {
-    let light = |x: usize, y: usize| 1.0 + 0.002 * x as f64 + 0.003 * y as f64;
-    let reflectances = [0.9, 0.6, 0.36, 0.2, 0.09, 0.03];
-    let measure = |patch: &dyn Fn(usize) -> f64| {
-        let grid = ChartGrid::new([[0.0, 0.0], [120.0, 0.0], [120.0, 80.0], [0.0, 80.0]], 6, 4).unwrap();
-        grid.means([120, 80], 9.0, |x, y| [1.0, 2.0, 0.5].map(|gain| gain * light(x, y) * patch(x / 20))).unwrap()
-    };
-    let (chart, gray) = (measure(&|k| reflectances[k]), measure(&|_| 0.5));
-    let evened = evened_by_gray(&chart, &gray).unwrap();
-    for (k, patch) in evened.iter().enumerate() {
-        let ratio = patch.mean[1] / evened[k / 6 * 6].mean[1];
-        assert!((ratio - reflectances[k % 6] / 0.9).abs() < 1e-12, "{patch:?}");
-    }
-    assert_eq!(evened_by_gray(&chart, &gray[1..]), None);
-    let slope = neutral_slope(&chart[18..], &reflectances).unwrap();
-    assert!((slope.slope - 0.04 / 1.24).abs() < 0.002 && slope.deviation < 0.002, "{slope:?}");
-    assert_eq!(neutral_slope(&chart[18..], &[0.1; 6]), None);
 }

@@ -3,7 +3,6 @@
 pub mod batch;
 pub mod channel_ratio;
 pub mod chart_grid;
-pub mod chart_light;
 pub mod chart_search;
 pub mod curve_spread;
 pub mod locus;

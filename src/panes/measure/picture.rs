@@ -1,6 +1,6 @@
 //! The picture of a chart: corners found or clicked, dragged where they are off.
 
-use std::path::PathBuf;
+use std::path::Path;
 
 use chromascope_core::camera::chart_grid::ChartGrid;
 use chromascope_figure::{Axis, Dash, InkRole, Mark, Marker, Panel, Shape, Tag};
@@ -10,7 +10,7 @@ use super::{State, change, heading, wrong};
 use crate::catalog::file_store::FileState;
 use crate::catalog::recorded_store::{ChartPhoto, RecordedContent};
 use crate::document::PHOTOGRAPHED_CHART;
-use crate::document::measurement::{MeasuredPatch, MeasuredShot};
+use crate::document::measurement::MeasuredShot;
 use crate::format::file_name;
 use crate::paint::{self, PlotOptions};
 use crate::panes::context::PaneContext;
@@ -27,16 +27,16 @@ const REACH: f32 = 14.0;
 pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let Some(path) = context.view.recorded.photo.clone() else { return };
     let name = file_name(&path);
-    heading(ui, &format!("Picture: {name}"));
     let file = match context.recorded.get(&path) {
         FileState::Ready(file) => file,
         FileState::Loading => {
+            heading(ui, &format!("Picture: {name}"));
             ui.weak(format!("Reading {name}…"));
             return;
         }
         FileState::Failed(why) => {
             // Others that are not measured yet go on without it.
-            context.view.recorded.photos.retain(|other| *other != path);
+            context.view.recorded.photos.remove(&path);
             next(context);
             if context.view.recorded.photo.as_ref() != Some(&path) {
                 return context.view.fail(why.clone());
@@ -45,17 +45,20 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         }
     };
     let RecordedContent::Picture(photo) = &file.content else { return };
-    let shot = context.scene.document.measurement.shots.iter().position(|shot| shot.file == name);
+    context.view.recorded.photos.insert(path.clone(), Some(photo.contents));
+    let measurement = &context.scene.document.measurement;
+    let shot = measurement.place(photo.contents, &name);
+    heading(ui, &format!("Picture: {}", shot.map_or(&name, |index| &measurement.shots[index].file)));
     let state = context.states.of::<State>();
     if let Some(index) = shot
         && state.held.is_none()
     {
-        state.corners = context.scene.document.measurement.shots[index].corners.to_vec();
+        state.corners = measurement.shots[index].corners.to_vec();
     } else if shot.is_none() && state.taken.as_ref() != Some(&path) {
-        state.taken = Some(path);
+        state.taken = Some(path.clone());
         state.corners = photo.found.map_or_else(Vec::new, |corners| corners.to_vec());
         if photo.found.is_some() {
-            take(&name, photo, context);
+            take(&path, photo, context);
         }
     }
     let corners = context.states.of::<State>().corners.clone();
@@ -66,50 +69,70 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         }
     };
     ui.add(Label::new(RichText::new(words).small().color(context.theme.weak)).wrap());
-    draw(ui, &name, photo, &corners, context);
+    draw(ui, &path, photo, &corners, context);
 }
 
 /// Shows a picture that is not measured yet in place of one that is.
 fn next(context: &mut PaneContext<'_>) {
     let recorded = &mut context.view.recorded;
-    let shots = &context.scene.document.measurement.shots;
-    let is_open = |path: &&PathBuf| {
-        recorded.photo.as_ref() != Some(*path) && shots.iter().all(|shot| shot.file != file_name(path))
-    };
-    if let Some(path) = recorded.photos.iter().find(is_open).cloned() {
-        recorded.photo = Some(path);
+    let measurement = &context.scene.document.measurement;
+    let mut open = recorded
+        .photos
+        .iter()
+        .filter(|(path, contents)| contents.is_none_or(|of| measurement.place(of, &file_name(path)).is_none()));
+    if let Some((path, _)) = open.find(|(path, _)| recorded.photo.as_ref() != Some(path)) {
+        recorded.photo = Some(path.clone());
     }
 }
 
 /// Puts the patches within the corners into the document.
-fn take(name: &str, photo: &ChartPhoto, context: &mut PaneContext<'_>) {
+fn take(path: &Path, photo: &ChartPhoto, context: &mut PaneContext<'_>) {
     let state = context.states.of::<State>();
     let Ok(corners) = <[[f64; 2]; 4]>::try_from(state.corners.as_slice()) else { return };
     let patches = match photo.picture.patches(corners) {
         Ok(patches) => patches,
         Err(error) => {
             state.corners.clear();
-            return context.view.fail(format!("{name}: {error}."));
+            return context.view.fail(format!("{}: {error}.", file_name(path)));
         }
     };
-    let (name, camera) = (name.to_owned(), photo.picture.camera());
+    let (camera, contents, photos) = (photo.picture.camera(), photo.contents, context.view.recorded.photos.clone());
     change(context, "Patches of a picture", |measurement| {
         if measurement.camera.is_empty() {
             measurement.camera = camera.unwrap_or_else(|| "My camera".to_owned());
         }
-        match measurement.shots.iter_mut().find(|shot| shot.file == name) {
-            Some(shot) => (shot.corners, shot.patches) = (corners, patches),
-            None => measurement.shots.push(new_shot(name, corners, patches)),
+        if let Some(index) = measurement.place(contents, &file_name(path)) {
+            let shot = &mut measurement.shots[index];
+            (shot.corners, shot.patches) = (corners, patches);
+            return;
         }
+        let mut file = file_name(path);
+        for shot in measurement.shots.iter_mut().filter(|shot| Path::new(&shot.file).ends_with(file_name(path))) {
+            let of_shot = photos.iter().find(|(_, of)| of.is_some() && **of == shot.contents);
+            shot.file = of_shot.map_or_else(|| shot.file.clone(), |(path, _)| with_folder(path));
+            file = with_folder(path);
+        }
+        let (chart, contents) = (PHOTOGRAPHED_CHART.to_owned(), Some(contents));
+        measurement.shots.push(MeasuredShot {
+            file,
+            contents,
+            chart,
+            light: None,
+            temperature_k: None,
+            corners,
+            patches,
+        });
     });
     next(context);
 }
 
-fn new_shot(file: String, corners: [[f64; 2]; 4], patches: Vec<MeasuredPatch>) -> MeasuredShot {
-    MeasuredShot { file, chart: PHOTOGRAPHED_CHART.to_owned(), light: None, temperature_k: None, corners, patches }
+/// Name of a file with that of its folder.
+fn with_folder(path: &Path) -> String {
+    let folder = path.parent().map(file_name).filter(|folder| !folder.is_empty());
+    folder.map_or_else(|| file_name(path), |folder| format!("{folder}/{}", file_name(path)))
 }
 
-fn draw(ui: &mut Ui, name: &str, photo: &ChartPhoto, corners: &[[f64; 2]], context: &mut PaneContext<'_>) {
+fn draw(ui: &mut Ui, path: &Path, photo: &ChartPhoto, corners: &[[f64; 2]], context: &mut PaneContext<'_>) {
     let [width, height] = photo.picture.size().map(|side| side as f64);
     let aspect = (width / height) as f32;
     let room = ui.available_width().min(HEIGHT * ui.clip_rect().height() * aspect);
@@ -128,7 +151,7 @@ fn draw(ui: &mut Ui, name: &str, photo: &ChartPhoto, corners: &[[f64; 2]], conte
     let points = Shape::Points { points: corners.to_vec(), marker: Marker::Circle, radius: 5.0 };
     panel.marks.push(Mark::new(Tag::default(), "corners", points).with_stroke(InkRole::Warning, 2.0));
     let options = PlotOptions { zoomable: false, reset: context.view.reset_plots, ..PlotOptions::default() };
-    let plot = paint::plot(ui, Id::unique(("picture of a chart", name)), &panel, &context.theme, place, options);
+    let plot = paint::plot(ui, Id::unique(("picture of a chart", path)), &panel, &context.theme, place, options);
     widgets::labeled(&plot.response, egui::Role::Canvas, "Picture of the chart");
     let at = plot.response.interact_pointer_pos();
     let state = context.states.of::<State>();
@@ -147,12 +170,12 @@ fn draw(ui: &mut Ui, name: &str, photo: &ChartPhoto, corners: &[[f64; 2]], conte
         } else if plot.response.clicked() && corners.len() < CORNERS.len() {
             state.corners.push(inside(at));
             if state.corners.len() == CORNERS.len() {
-                return take(name, photo, context);
+                return take(path, photo, context);
             }
         }
     }
     if plot.response.drag_stopped() && state.held.take().is_some() {
-        take(name, photo, context);
+        take(path, photo, context);
     }
 }
 

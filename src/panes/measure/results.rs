@@ -6,7 +6,7 @@ use chromascope_core::camera::recorded::Freedom;
 use chromascope_core::query::{ChartMeasurement, RecordedSet, Shared};
 use egui::{Button, Id, Label, RichText, Sense, Ui, Vec2};
 
-use super::{State, heading, wrong};
+use super::{Shown, State, heading, wrong};
 use crate::action::{Action, ImportedAction};
 use crate::command::Command;
 use crate::document::{Document, SensorId, SetKind};
@@ -39,7 +39,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         ui.add(Label::new(LIGHT).wrap());
         return;
     }
-    let (is_current, measured, recorded) = match answer(context) {
+    let (is_current, Shown { measured, recorded, doubts, .. }) = match answer(context) {
         Err(why) => return wrong(ui, &why, context),
         Ok(None) => {
             ui.weak("Computing…");
@@ -51,8 +51,8 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         heading(ui, "Computing…");
     }
     ui.add_enabled_ui(is_current, |ui| {
-        doubts(ui, &measured, context);
-        added(ui, &measured, context);
+        warn(ui, &doubts, context);
+        added(ui, context);
         curves(ui, &measured, context);
         for line in measured::conditions(&measured) {
             ui.add(Label::new(RichText::new(line).small()).wrap());
@@ -90,7 +90,7 @@ fn patches(ui: &mut Ui, measured: &ChartMeasurement, context: &mut PaneContext<'
 }
 
 /// True with the results of the pictures as they are; false with the last ones while others are computed.
-fn answer(context: &mut PaneContext<'_>) -> Result<Option<(bool, Arc<ChartMeasurement>, RecordedSet)>, String> {
+fn answer(context: &mut PaneContext<'_>) -> Result<Option<(bool, Shown)>, String> {
     let scene = context.scene;
     let measurement = &scene.document.measurement;
     let state = context.states.of::<State>();
@@ -102,14 +102,14 @@ fn answer(context: &mut PaneContext<'_>) -> Result<Option<(bool, Arc<ChartMeasur
     state.asked = Some((measurement.clone(), query.clone()));
     let made = context.later.ask(PaneKind::MEASURE, vec![query.clone()]).current()?;
     if let Some(made) = made
-        && state.shown.as_ref().is_none_or(|(of, ..)| *of != query)
+        && state.shown.as_ref().is_none_or(|shown| shown.query != query)
     {
-        let made = (*made).clone().map_err(|error| error.to_string())?;
-        let recorded = Shared::new(made.shots.iter().flat_map(|shot| shot.patches.clone()).collect());
-        (state.shown, state.is_accepted) = (Some((query.clone(), made, recorded)), false);
+        let measured = (*made).clone().map_err(|error| error.to_string())?;
+        let recorded = Shared::new(measured.shots.iter().flat_map(|shot| shot.patches.clone()).collect());
+        let doubts = measured::doubts(&measured).into();
+        (state.shown, state.is_accepted) = (Some(Shown { query: query.clone(), measured, recorded, doubts }), false);
     }
-    let shown = state.shown.as_ref();
-    Ok(shown.map(|(of, made, recorded)| (*of == query, Arc::clone(made), recorded.clone())))
+    Ok(state.shown.clone().map(|shown| (shown.query == query, shown)))
 }
 
 /// Results that can be put to use: those of the pictures as they are, with consent where they are doubtful.
@@ -117,19 +117,18 @@ fn usable(context: &mut PaneContext<'_>) -> Result<Arc<ChartMeasurement>, &'stat
     let measurement = &context.scene.document.measurement;
     let State { shown, asked, is_accepted, .. } = context.states.of::<State>();
     let asked = asked.as_ref().filter(|(of, _)| of == measurement).map(|(_, query)| query);
-    let Some((_, measured, _)) = shown.as_ref().filter(|(query, ..)| asked == Some(query)) else {
+    let Some(shown) = shown.as_ref().filter(|shown| asked == Some(&shown.query)) else {
         return Err("There is no result of these pictures, lights and charts");
     };
-    if !*is_accepted && !measured::doubts(measured).is_empty() {
+    if !*is_accepted && !shown.doubts.is_empty() {
         return Err("Read the warnings, and confirm there that light and chart are right");
     }
-    Ok(Arc::clone(measured))
+    Ok(Arc::clone(&shown.measured))
 }
 
 /// Warnings, and consent to what they are about.
-fn doubts(ui: &mut Ui, measured: &ChartMeasurement, context: &mut PaneContext<'_>) {
-    let doubts = measured::doubts(measured);
-    for doubt in &doubts {
+fn warn(ui: &mut Ui, doubts: &[String], context: &mut PaneContext<'_>) {
+    for doubt in doubts {
         ui.add(Label::new(RichText::new(format!("{doubt}.")).color(context.theme.warning)).wrap());
     }
     if !doubts.is_empty() {
@@ -139,10 +138,10 @@ fn doubts(ui: &mut Ui, measured: &ChartMeasurement, context: &mut PaneContext<'_
 }
 
 /// Ways on, once the camera is in the library.
-fn added(ui: &mut Ui, measured: &ChartMeasurement, context: &mut PaneContext<'_>) {
-    let document = context.scene.document;
-    let set = measured::set(&document.measurement, measured);
-    let Some(name) = document.same_set(&set).map(|at| document.own[at].name.clone()) else { return };
+fn added(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let Document { own, measurement, .. } = context.scene.document;
+    let known = own.iter().find(|set| set.measured.is_some() && set.measured == measurement.origin());
+    let Some(name) = known.map(|set| set.name.clone()) else { return };
     ui.horizontal_wrapped(|ui| {
         ui.label(format!("{name} is one of your cameras."));
         for workspace in [Workspace::Rank, Workspace::Compare] {
@@ -194,10 +193,7 @@ pub(super) fn add(ui: &mut Ui, context: &mut PaneContext<'_>) {
         let scene = context.scene;
         let set = measured::set(&scene.document.measurement, &measured);
         let (document, built_in) = (scene.document, scene.catalog.names().clone());
-        let name = document.same_set(&set).map_or_else(
-            || document.free_name(SetKind::Camera, &set.name, None, &built_in),
-            |at| document.own[at].name.clone(),
-        );
+        let name = document.free_name(SetKind::Camera, &set.name, document.same_set(&set), &built_in);
         context.push(Action::Imported(ImportedAction::Import { sets: vec![set], built_in }));
         context.push(Command::Select(camera(&name)));
         context.view.say("Added to your cameras, and compared.");
@@ -247,8 +243,7 @@ fn profile(ui: &mut Ui, measured: &ChartMeasurement, context: &mut PaneContext<'
 fn identify(ui: &mut Ui, recorded: &RecordedSet, context: &mut PaneContext<'_>) {
     let scene = context.scene;
     let Document { own, measurement, .. } = scene.document;
-    let is_own =
-        |name: &str| own.iter().any(|s| s.is_recovered() && s.name == name && name.starts_with(&measurement.camera));
+    let is_own = |name: &str| own.iter().any(|set| set.name == name && set.measured == measurement.origin());
     let names: Vec<String> =
         scene.entries(SetKind::Camera).map(|entry| entry.name).filter(|name| !is_own(name)).collect();
     let Ok(query) = scene.recorded_ranking(recorded, Freedom::default(), &names) else { return };

@@ -290,7 +290,7 @@ impl ImportedAction {
     pub fn name(&self) -> String {
         match self {
             Self::Import { sets, .. } => match sets.as_slice() {
-                [one] if one.is_recovered() => format!("Add camera {}", one.name),
+                [one] if one.measured.is_some() => format!("Add camera {}", one.name),
                 [one] => format!("Open {}", one.name),
                 many => format!("Open {} sets", many.len()),
             },
@@ -347,7 +347,10 @@ fn add(document: &mut Document, set: &ImportedSet, built_in: &BuiltInNames) -> S
         return set;
     };
     let name = document.own[index].name.clone();
-    if set.is_recovered() || set.fingerprint != document.own[index].fingerprint {
+    if set.measured.is_some() {
+        // Under the name that the measurement has by now.
+        replace(document, &name, set, built_in);
+    } else if set.fingerprint != document.own[index].fingerprint {
         replace(document, &name, &ImportedSet { name: name.clone(), ..set.clone() }, built_in);
     }
     document.own[index].clone()

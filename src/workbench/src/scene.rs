@@ -13,6 +13,7 @@ pub mod recorded;
 pub mod recovery;
 pub mod render;
 pub mod spectral_image;
+pub mod tables;
 pub mod uncertainty;
 
 use std::borrow::Cow;

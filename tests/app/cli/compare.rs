@@ -50,6 +50,32 @@ fn an_own_file_has_its_place_among_the_built_in() {
     assert_eq!(rows.len(), 1 + 58);
 }
 
+/// Another laboratory's table of a model, and the user's own, differ from the first by what the window's page has.
+#[test]
+fn tables_of_one_model_are_compared() {
+    let text_of_own = std::fs::read_to_string("assets/cameras/nikon_d70_a_m_p_a_s.csv").unwrap();
+    let own = file("tables_own.csv", &text_of_own.replacen("Nikon D70 (A.M.P.A.S.)", "Own table", 1));
+    let named =
+        ["compare", "--tables-of", "Nikon D70 (A.M.P.A.S.)", "--camera", own.to_str().unwrap(), "--metrics", "vora"];
+    let rows = table(&[&named[..], &["--format", "csv"]].concat());
+    let of = |head: &str, name: &str| {
+        let row = rows.iter().position(|row| row[0].starts_with(name)).unwrap_or_else(|| panic!("{name}")) - 1;
+        column(&rows, head)[row].to_owned()
+    };
+    assert_eq!((rows.len(), of("from_first_delta_e2000", "Nikon D70 (A.M.P.A.S.)").as_str()), (1 + 4, ""));
+    let [same, upenn, figure] =
+        ["Own table", "Nikon D70 (UPenn", "Nikon D70 (2007"].map(|name| number(&of("from_first_delta_e2000", name)));
+    assert!(same < 1e-9 && (0.05..1.0).contains(&upenn) && figure > upenn, "{same} {upenn} {figure}");
+    assert!(number(&of("curve_r_percent", "Nikon D70 (UPenn")) > 1.0);
+    let object = json(&named);
+    let tables: Vec<&Value> = object["cameras"].as_array().unwrap().iter().map(|of| &of["from_first"]).collect();
+    assert!(tables.iter().any(|of| of["delta_e2000"].as_f64().is_some_and(|value| (value - upenn).abs() < 1e-9)));
+    assert!(text(&named).contains("First: Nikon D70 (A.M.P.A.S.). Mean ΔE*00"));
+    // A model may be named without what distinguishes its tables.
+    assert_eq!(table(&["compare", "--tables-of", "nikon d70", "--format", "csv", "--metrics", "vora"]).len(), 1 + 3);
+    refused(&["compare", "--tables-of", "Nonesuch 1"], &["no camera is named"]);
+}
+
 #[test]
 fn one_number_in_three_forms() {
     let named = ["compare", "--camera", "Kodak DCS200", "--metrics", "delta-e2000-mean,cct-error"];

@@ -120,11 +120,11 @@ fn table_of_hold_outs() {
     }
 }
 
-/// Limits are what was reached when this was written, rounded up: 4.8 and 7.0 %, 99 and 97 % inside.
+/// Limits are what was reached when this was written, rounded up: 4.5 and 7.1 %, 99 and 97 % inside.
 #[test]
 fn unknown_cameras_are_recovered_within_their_uncertainties() {
     let [median, _, inside, better, ratio] = summary(&hold_out(&[D65], EVEN, false));
-    assert!(median < 0.049 && inside > 0.97 && better >= 0.9, "{median} {inside} {better}");
+    assert!(median < 0.046 && inside > 0.97 && better >= 0.9, "{median} {inside} {better}");
     assert!((ratio - 1.0).abs() < 0.05, "{ratio}");
     let [one, tenth, inside, better, _] = summary(&hold_out(&[D65], EVEN, true));
     assert!(one < 0.072 && tenth < 0.125 && inside > 0.95 && better >= 0.9, "{one} {tenth} {inside} {better}");
@@ -197,4 +197,42 @@ fn equal_input_gives_equal_output() {
     let once = ChartRecovery::new(&library, std::slice::from_ref(&recorded)).unwrap();
     assert_eq!(once, ChartRecovery::new(&library, &[recorded]).unwrap());
     assert!(once.curves.values.iter().flatten().all(|value| (0.0..=1.0).contains(value)));
+}
+
+/// Light that falls off by 16 % from one corner of the chart to the other, divided by what a gray frame would say it is: medians of the
+/// curves' errors and of the patches' brightness against the truth.
+fn falling_off(by_maker: bool, gray: fn(usize) -> f64) -> [f64; 2] {
+    let (cameras, light) = (cameras(), light(D65));
+    let one = |(seed, (name, sensor)): (usize, &(String, Sensor))| {
+        let is_omitted = |other: &str| if by_maker { maker(other) == maker(name) } else { model(other) == model(name) };
+        let library = library_without(&cameras, is_omitted);
+        let mut recorded =
+            shot(sensor, &light, Conditions { uneven: 0.0, ..PHOTOGRAPH }, &mut SplitMix64::new(seed as u64));
+        let left = |at: usize| fall_off(at) / gray(at);
+        for (at, (patch, noise)) in recorded.patches.iter_mut().zip(&mut recorded.noise).enumerate() {
+            patch.rgb = patch.rgb.map(|value| Signal::new(value.value().unwrap() * left(at), f64::INFINITY));
+            *noise = noise.map(|noise| noise * left(at));
+        }
+        let found = ChartRecovery::new(&library, &[recorded]).unwrap();
+        let logs: Vec<f64> = found.brightness[0].iter().enumerate().map(|(at, b)| (b / left(at)).ln()).collect();
+        let mean = logs.iter().sum::<f64>() / logs.len() as f64;
+        let patches = (logs.iter().map(|log| (log - mean).powi(2)).sum::<f64>() / logs.len() as f64).sqrt();
+        (score(name, sensor, &library, &found), patches)
+    };
+    let (scores, mut patches): (Vec<Score>, Vec<f64>) = cameras.par_iter().enumerate().map(one).unzip();
+    patches.sort_by(f64::total_cmp);
+    [summary(&scores)[0], patches[patches.len() / 2]]
+}
+
+fn fall_off(at: usize) -> f64 {
+    1.0 + 0.08 * ((at % 6) as f64 / 5.0 + (at / 6) as f64 / 3.0 - 1.0)
+}
+
+/// As it is 3.0 %, with a gray frame 3.0 % (5.6 and 5.9 % without the maker); the patches are known to 0.2 %. So no gray frame is asked for.
+#[test]
+fn light_that_falls_off_costs_no_more_than_a_gray_frame_would_save() {
+    for by_maker in [false, true] {
+        let ([own, patches], [with_gray, _]) = (falling_off(by_maker, |_| 1.0), falling_off(by_maker, fall_off));
+        assert!(own < 1.05 * with_gray && patches < 0.003, "{own} {with_gray} {patches}");
+    }
 }

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::chart::{ChartRecovery, RecoveryError, Shot};
 use super::prior::Library;
 use super::profile::{difference, fitted, samples};
+use crate::camera::recorded::Signal;
 use crate::correction::Correction;
 use crate::spectral::Sensor;
 
@@ -26,8 +27,8 @@ pub fn left_out(
         let name = &first.patches[omitted].name;
         let without = |shot: &Shot| {
             let mut shot = shot.clone();
-            let pairs = shot.patches.into_iter().zip(shot.noise).filter(|(patch, _)| patch.name != *name);
-            (shot.patches, shot.noise) = pairs.unzip();
+            let own = shot.patches.iter_mut().filter(|patch| patch.name == *name);
+            own.for_each(|patch| patch.rgb = [Signal::new(f64::NAN, f64::INFINITY); 3]);
             shot
         };
         let recovery = ChartRecovery::new(library, &shots.iter().map(without).collect::<Vec<_>>())?;

@@ -1,4 +1,4 @@
-//! Linear pictures of charts: DNG, and 16-bit TIFF and PNG.
+//! Linear pictures of charts: DNG, 16-bit TIFF and PNG, and OpenEXR.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -21,7 +21,7 @@ use crate::document::{CHART, SetKind};
 use crate::results::Results;
 
 /// Endings of pictures that are read.
-const READ: [&str; 4] = ["dng", "tif", "tiff", "png"];
+const READ: [&str; 5] = ["dng", "tif", "tiff", "png", "exr"];
 /// Endings of developed pictures, and of raw files of makers: of these reason and remedy are told.
 const DEVELOPED: [&str; 6] = ["jpg", "jpeg", "heic", "heif", "avif", "webp"];
 const RAW: [&str; 18] = [
@@ -56,7 +56,7 @@ const CLIP: f64 = 65535.0;
 
 #[derive(Debug, thiserror::Error)]
 pub enum ChartPictureError {
-    #[error("{0}; expected a DNG, or a 16-bit TIFF or PNG")]
+    #[error("{0}; expected a DNG, a 16-bit TIFF or PNG, or an OpenEXR with channels R, G and B")]
     Format(#[from] image::ImageError),
     #[error(transparent)]
     Raw(#[from] RawImageError),
@@ -95,7 +95,7 @@ impl ChartPicture {
         })
     }
 
-    /// Decodes a DNG, or a TIFF or PNG of 16 bits or 32-bit floats a channel.
+    /// Decodes a DNG, a TIFF or PNG of 16 bits or 32-bit floats a channel, or an OpenEXR.
     pub fn decode(bytes: &[u8]) -> Result<Self, ChartPictureError> {
         match RawImage::read(bytes) {
             Ok(raw) => return Ok(Self(Pixels::Raw(Box::new(raw)))),
@@ -121,9 +121,10 @@ impl ChartPicture {
             reader.decode()?
         };
         match picture {
-            DynamicImage::ImageRgb16(_) | DynamicImage::ImageRgba16(_) | DynamicImage::ImageRgb32F(_) => {
-                Ok(Self(Pixels::Picture(picture)))
-            }
+            DynamicImage::ImageRgb16(_)
+            | DynamicImage::ImageRgba16(_)
+            | DynamicImage::ImageRgb32F(_)
+            | DynamicImage::ImageRgba32F(_) => Ok(Self(Pixels::Picture(picture))),
             DynamicImage::ImageRgb8(_) | DynamicImage::ImageRgba8(_) => Err(ChartPictureError::Depth("8-bit")),
             _ => Err(ChartPictureError::Depth("not RGB")),
         }
@@ -161,6 +162,10 @@ impl ChartPicture {
                 [r, g, b].map(f64::from)
             }
             DynamicImage::ImageRgb32F(picture) => picture.get_pixel(x, y).0.map(f64::from),
+            DynamicImage::ImageRgba32F(picture) => {
+                let [r, g, b, _] = picture.get_pixel(x, y).0;
+                [r, g, b].map(f64::from)
+            }
             _ => [f64::NAN; 3],
         }
     }

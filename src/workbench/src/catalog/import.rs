@@ -163,6 +163,7 @@ fn own_set(origin: &Origin, table: &SpectralFile, overrides: &ImportOverrides, t
         name,
         file: origin.name.clone(),
         path: origin.path.clone(),
+        measured: None,
         fingerprint: Some(origin.fingerprint),
         overrides: overrides.clone(),
         role: table.role.value,

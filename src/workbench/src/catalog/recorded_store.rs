@@ -12,6 +12,7 @@ use spectral_file::{Certainty, ReadOptions, Role};
 use super::chart_picture::{ChartPicture, is_picture};
 use super::file_store::{FileStore, FromFile};
 use super::recorded::{self, Levels, RawRow};
+use crate::document::imported::Fingerprint;
 use crate::format::{file_name, io_reason};
 
 const MAX_BYTES: u64 = 1 << 30;
@@ -36,6 +37,8 @@ pub enum RecordedContent {
 #[derive(Debug)]
 pub struct ChartPhoto {
     pub picture: ChartPicture,
+    /// By which it is known wherever it is.
+    pub contents: Fingerprint,
     /// The picture as it is shown.
     pub shown: Image,
     /// Corners of the grid of patches, if a chart was found for certain.
@@ -84,7 +87,7 @@ fn read(path: &Path) -> Result<RecordedFile, String> {
     let content = if is_picture(path) {
         let picture = ChartPicture::read(path, &bytes).map_err(|error| failed(error.to_string()))?;
         let (shown, found) = (picture.preview(SHOWN), picture.find_chart());
-        RecordedContent::Picture(ChartPhoto { picture, shown, found })
+        RecordedContent::Picture(ChartPhoto { picture, contents: Fingerprint::of(&bytes), shown, found })
     } else {
         let table = recorded::read_table(&bytes).map_err(|error| failed(error.to_string()))?;
         let spectra = table.spectra.as_deref().map(spectra).transpose().map_err(failed)?;

@@ -63,6 +63,12 @@ pub fn is_spectral_image(path: &Path) -> bool {
     has_ending(path, "hdr") || has_ending(path, "exr") || (is_data() && header_of(path).is_ok())
 }
 
+/// True for an OpenEXR, unless its header says that it has no spectral channels: a picture.
+pub fn is_spectral_exr(path: &Path) -> bool {
+    let is_plain = || matches!(open(path, None), Err(OpenImageError::Image { error: ImageError::NoSpectrum, .. }));
+    has_ending(path, "exr") && !is_plain()
+}
+
 pub fn has_image_ending(path: &Path) -> bool {
     ENDINGS.iter().any(|ending| has_ending(path, ending))
 }

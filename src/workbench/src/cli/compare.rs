@@ -22,6 +22,7 @@ use crate::figures::metrics::USUAL;
 use crate::format::cut_in_middle;
 use crate::results::Results;
 use crate::scene::metrics::CameraFigures;
+use crate::scene::tables::{self, ModelTable};
 use crate::scene::uncertainty::{self, cell, in_words, rank_cell, with_nature};
 use crate::scene::{Scene, SceneError};
 use crate::terminal::shown_json;
@@ -50,6 +51,10 @@ pub(super) struct CompareArguments {
     /// All built-in cameras beside those of --camera
     #[arg(long)]
     library: bool,
+    /// All tables of a camera's model, and those of --camera, with what they differ by from the first: in curves, in ΔE*00 of the
+    /// patches, and where a table ends above 5 % of its peak
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["library", "observer"])]
+    tables_of: Option<String>,
     #[command(flatten)]
     pixel: PixelArguments,
 }
@@ -77,6 +82,7 @@ fn examples() -> String {
   chromascope compare
   chromascope compare --camera \"Nikon D70 (A.M.P.A.S.)\" --camera mine.csv --illuminant A --metrics all
   chromascope compare --camera mine.csv --library
+  chromascope compare --tables-of \"Nikon D70\" --camera measured.csv
   chromascope compare --sort metamerism-index --metrics metamerism-index,metamerism-index-min,vora,luther
   chromascope compare --correction min-delta-e --chart leaves.csv --format csv --out ranking.csv
 
@@ -107,6 +113,8 @@ struct Comparison {
     /// The metric that orders the rows; none for the order of names.
     sorted_by: Option<CameraMetric>,
     rows: Vec<Row>,
+    /// Of each row with --tables-of, and the name of the table that they are compared with.
+    tables: Option<(String, Vec<ModelTable>)>,
     patches: Vec<String>,
     /// Metric by which a patch is the worst.
     difference: Metric,
@@ -132,7 +140,18 @@ pub(super) fn run(arguments: &CompareArguments, matches: &ArgMatches) -> Result<
     let mut request = Request::new(&arguments.common, matches)?;
     arguments.chart.set(&mut request)?;
     let alone = arguments.common.sources.names_no_sensor();
-    if alone || arguments.library {
+    if let Some(name) = &arguments.tables_of {
+        let results = Results::default();
+        let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
+        let mut tables = scene.tables_of(name);
+        if tables.is_empty() {
+            tables = scene.tables_of(&scene.entry(SetKind::Camera, name)?.name);
+        }
+        let own = if alone { Vec::new() } else { std::mem::take(&mut request.sources) };
+        request.sources = tables.into_iter().map(|name| (SetKind::Camera, name)).collect();
+        let others = own.into_iter().filter(|own| !request.sources.contains(own)).collect::<Vec<_>>();
+        request.sources.extend(others);
+    } else if alone || arguments.library {
         let own = if alone { Vec::new() } else { std::mem::take(&mut request.sources) };
         let built_in = request.catalog.of_kind(SetKind::Camera).map(|entry| (SetKind::Camera, entry.name.clone()));
         let others = built_in.filter(|source| !own.contains(source)).collect::<Vec<_>>();
@@ -186,8 +205,17 @@ fn compared(scene: &Scene<'_>, request: &Request, arguments: &CompareArguments) 
     let patches = scene.patches()?.patches().iter().map(|patch| patch.name.clone()).collect();
     let cameras = request.sources.iter().filter(|(kind, _)| *kind == SetKind::Camera);
     let refused = scene.refused_uncertainties(cameras.map(|(_, name)| name.as_str()));
+    let rows = rows(&found, &metrics, sorted_by);
+    let tables = arguments.tables_of.as_ref().map(|_| -> Result<(String, Vec<ModelTable>), SceneError> {
+        let names: Vec<String> = request.sources.iter().map(|(_, name)| name.clone()).collect();
+        let made = scene.results.ask(&scene.model_tables(&names)?);
+        let made = made.as_ref().as_ref().map_err(SceneError::clone)?;
+        let of = |row: &Row| names.iter().position(|name| *name == row.name).map(|at| made[at].clone());
+        Ok((names[0].clone(), rows.iter().filter_map(of).collect()))
+    });
     Ok(Comparison {
-        rows: rows(&found, &metrics, sorted_by),
+        rows,
+        tables: tables.transpose()?,
         metrics,
         sorted_by,
         patches,
@@ -248,6 +276,9 @@ fn table(comparison: &Comparison, longest: usize) -> Table {
     });
     let (at, metrics) = (table.columns.len(), rows.iter().map(|row| Some(&*row.all.metrics)));
     uncertainty::insert_worst(&mut table, at, (comparison.difference, &comparison.patches), metrics);
+    if let Some((_, tables)) = &comparison.tables {
+        tables::insert(&mut table, tables);
+    }
     table
 }
 
@@ -268,6 +299,9 @@ fn notes(comparison: &Comparison) -> String {
     if let Some(metric) = comparison.sorted_by {
         let _ =
             writeln!(text, "Rank by {}; a range where values do not differ at 95 % (k √(u₁² + u₂²)).", metric.symbol);
+    }
+    if let Some((first, _)) = &comparison.tables {
+        let _ = writeln!(text, "First: {first}. {}", tables::COLUMNS);
     }
     let all: Vec<MetricUncertainty> = comparison.rows.iter().flat_map(uncertainties).collect();
     text.extend(Some(in_words(all)).filter(|words| !words.is_empty()).map(|words| words + "\n"));
@@ -332,7 +366,18 @@ fn json(comparison: &Comparison) -> String {
             },
         })
     };
-    let camera = |row: &Row| {
+    let table = |at: usize| {
+        let of = comparison.tables.as_ref().and_then(|(_, tables)| tables.get(at))?;
+        let difference = of.difference.as_ref().and_then(|difference| difference.as_ref().ok());
+        let end =
+            |(c, nm, share): &(usize, f64, f64)| json!({ "channel": c, "wavelength_nm": nm, "share_of_peak": share });
+        Some(json!({
+            "delta_e2000": difference.map(|of| of.delta_e),
+            "curves": difference.map(|of| of.curves),
+            "open_ends": of.ends.iter().map(end).collect::<Vec<_>>(),
+        }))
+    };
+    let camera = |(at, row): (usize, &Row)| {
         let values = comparison.metrics.iter().zip(&row.values).zip(&row.ranks).map(|((metric, value), rank)| {
             let told = match value.value {
                 Ok(number) => {
@@ -350,13 +395,17 @@ fn json(comparison: &Comparison) -> String {
             let difference = row.all.metrics.patches[patch].by_metric[place].ok();
             json!({ "patch": comparison.patches.get(patch), "metric": comparison.difference.id, "difference": difference })
         });
-        json!({
+        let mut told = json!({
             "name": row.name,
             "kind": row.kind.label(),
             "values": values.collect::<Map<String, Value>>(),
             "worst_patches": worst,
             "worst": largest,
-        })
+        });
+        if let Some(table) = table(at) {
+            told["from_first"] = table;
+        }
+        told
     };
     let conditions = comparison.conditions.iter().map(|(column, value)| (column.key.clone(), json!(value)));
     let all = json!({
@@ -365,7 +414,7 @@ fn json(comparison: &Comparison) -> String {
         "conditions": conditions.collect::<Map<String, Value>>(),
         "sorted_by": comparison.sorted_by.map(|metric| metric.id),
         "metrics": comparison.metrics.iter().map(metric).collect::<Vec<_>>(),
-        "cameras": comparison.rows.iter().map(camera).collect::<Vec<_>>(),
+        "cameras": comparison.rows.iter().enumerate().map(camera).collect::<Vec<_>>(),
     });
     format!("{all:#}\n")
 }

@@ -51,13 +51,13 @@ first order). Columns of --residuals: camera, patch, channel, residual_percent (
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct IdentifyArguments {
-    /// A picture of a chart (DNG, linear 16-bit TIFF or PNG), spectra with raw RGB, spectra alone (with --raw or --image), or raw RGB alone (with --chart)
+    /// A picture of a chart (DNG, linear 16-bit TIFF or PNG, OpenEXR), spectra with raw RGB, spectra alone (with --raw or --image), or raw RGB alone (with --chart)
     #[arg(value_name = "FILE", required_unless_present = "image")]
     file: Option<PathBuf>,
     /// A table of raw RGB: columns patch, R, G, B
     #[arg(long, value_name = "FILE", conflicts_with = "image")]
     raw: Option<PathBuf>,
-    /// A picture of the chart: DNG, linear 16-bit TIFF or PNG
+    /// A picture of the chart: DNG, linear 16-bit TIFF or PNG, OpenEXR
     #[arg(long, value_name = "FILE")]
     image: Option<PathBuf>,
     /// Corners of the grid of patches in pixels, around the chart from the first patch: top left, top right, bottom right, bottom left

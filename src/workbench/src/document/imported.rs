@@ -72,6 +72,9 @@ pub struct ImportedSet {
     pub path: Option<PathBuf>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fingerprint: Option<Fingerprint>,
+    /// [`Measurement::origin`](super::measurement::Measurement::origin) of a camera that was recovered from pictures here.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub measured: Option<Fingerprint>,
     #[serde(default, rename = "wishes")]
     pub overrides: ImportOverrides,
     pub role: Role,
@@ -143,11 +146,6 @@ impl Hash for ImportedSet {
 }
 
 impl ImportedSet {
-    /// True for a camera that was recovered from pictures here, not read from a file.
-    pub fn is_recovered(&self) -> bool {
-        self.role == Role::Camera && self.path.is_none() && self.fingerprint.is_none() && self.covariance.is_some()
-    }
-
     /// The curves that its role uses, in nanometers and, for reflectances, as fractions.
     pub fn curves_in_nm(&self) -> Result<Vec<(String, SpectralDistribution)>, DistributionError> {
         self.used()
@@ -201,6 +199,7 @@ impl ImportedSet {
             file: self.file.clone(),
             path: self.path.clone(),
             fingerprint: self.fingerprint,
+            measured: self.measured,
             overrides: self.overrides.clone(),
             role: self.role,
             read_as: self.read_as,

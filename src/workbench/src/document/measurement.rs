@@ -1,7 +1,10 @@
 //! What a camera recorded of charts, by value: the photographs themselves are not part of a document.
 
+use std::path::Path;
+
 use serde::{Deserialize, Serialize};
 
+use super::imported::Fingerprint;
 use super::kind::Light;
 
 /// Shots of one camera from which its sensitivities are recovered.
@@ -17,13 +20,26 @@ impl Measurement {
     pub fn is_none(&self) -> bool {
         *self == Self::default()
     }
+
+    /// That by which a camera recovered from these pictures is known: further pictures do not make another one.
+    pub fn origin(&self) -> Option<Fingerprint> {
+        self.shots.first().map(|shot| shot.contents.unwrap_or_else(|| Fingerprint::of(shot.file.as_bytes())))
+    }
+
+    /// Place of a picture's shot.
+    pub fn place(&self, contents: Fingerprint, name: &str) -> Option<usize> {
+        self.shots.iter().position(|shot| shot.is_of(contents, name))
+    }
 }
 
 /// One picture of a chart.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MeasuredShot {
-    /// Name of the picture.
+    /// Name of the picture; with its folder where another one has the same name.
     pub file: String,
+    /// By which the picture is known wherever it is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contents: Option<Fingerprint>,
     pub chart: String,
     /// The light; none until it is chosen.
     pub light: Option<Light>,
@@ -35,6 +51,11 @@ pub struct MeasuredShot {
 }
 
 impl MeasuredShot {
+    /// True for that of a picture: of its name and, unless the document is older, its contents.
+    pub fn is_of(&self, contents: Fingerprint, name: &str) -> bool {
+        Path::new(&self.file).ends_with(name) && self.contents.is_none_or(|own| own == contents)
+    }
+
     /// True under daylight of unknown temperature.
     pub fn is_daylight(&self) -> bool {
         self.light == Some(Light::Daylight) && self.temperature_k.is_none()

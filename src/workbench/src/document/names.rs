@@ -200,15 +200,13 @@ impl Document {
     }
 
     /// The place of the own set that another reading of a file is of: of the same contents, or of the same file on disk in the
-    /// same role, and of the same part of it; or that was recovered under this name from the same pictures, up to added ones.
+    /// same role, and of the same part of it; or that was recovered in the same measurement.
     pub fn same_set(&self, set: &ImportedSet) -> Option<usize> {
         let is_same = |known: &Shared<ImportedSet>| {
             let contents = set.fingerprint.is_some() && set.fingerprint == known.fingerprint;
             let file = set.path.is_some() && set.path == known.path && set.role == known.role;
-            let pictures = |set: &ImportedSet| set.file.split(", ").next().map(str::to_owned);
-            let measured = set.is_recovered() && known.is_recovered() && pictures(set) == pictures(known);
-            (contents || file) && set.overrides.options.part == known.overrides.options.part
-                || measured && known.name.starts_with(&set.name)
+            let measured = set.measured.is_some() && set.measured == known.measured;
+            (contents || file) && set.overrides.options.part == known.overrides.options.part || measured
         };
         self.own.iter().position(is_same)
     }

@@ -97,6 +97,9 @@ pub fn conditions(measured: &ChartMeasurement) -> Vec<String> {
 }
 
 /// Signs that light or chart are not those named: where there are any, nothing is made of a measurement without consent.
+///
+/// Over the library, each camera's model left out, photographs simulated: with the right light (D65, A or FL11) 9 of 174 are warned of or
+/// refused, all of three cameras unlike all others; with a wrong one of these 337 of 348 are. See `tests/app/measured_doubts.rs`.
 pub fn doubts(measured: &ChartMeasurement) -> Vec<String> {
     let mut doubts = Vec::new();
     if let Some([kelvin, deviation]) = measured.daylight.filter(|[kelvin, deviation]| kelvin - deviation < WARMEST) {
@@ -176,6 +179,7 @@ pub fn set(measurement: &Measurement, measured: &ChartMeasurement) -> ImportedSe
         file: files.join(", "),
         path: None,
         fingerprint: None,
+        measured: measurement.origin(),
         overrides: ImportOverrides::default(),
         role: Role::Camera,
         read_as: ReadAs { unit: WavelengthUnit::Nanometer, percent: false },

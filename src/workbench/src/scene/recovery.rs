@@ -60,12 +60,17 @@ pub fn built_in_cameras(catalog: &Catalog) -> Vec<SetPlace> {
 
 /// Tables of cameras for curves at some wavelengths.
 pub fn library(cameras: &[SetPlace], wavelengths_nm: &[f64], ask: &impl Ask) -> Result<Library> {
+    Ok(Library::new(sensors(cameras, ask)?, wavelengths_nm))
+}
+
+/// Tables by their names.
+pub(super) fn sensors(cameras: &[SetPlace], ask: &impl Ask) -> Result<Vec<(String, Sensor)>> {
     let table = |SetPlace { name, place, .. }: &SetPlace| {
         let sensor = (*ask.ask(&SensorQuery(place.clone()))).clone();
         let sensor = sensor.map_err(|error| SceneError::Load { name: name.clone(), error })?;
         Ok((name.clone(), (*sensor).clone()))
     };
-    Ok(Library::new(cameras.iter().map(table).collect::<Result<Vec<_>>>()?, wavelengths_nm))
+    cameras.iter().map(table).collect()
 }
 
 impl Scene<'_> {

@@ -18,6 +18,10 @@ const GLARE_PRIOR: [f64; 2] = [0.005, 0.01];
 const FREE: f64 = 10.0;
 /// Smallest and first spread of the logarithm of brightness.
 const EVENNESS: [f64; 2] = [1e-3, 0.1];
+/// Patches of a chart whose places are known, and how many stand in a row.
+const GRID: [usize; 2] = [24, 6];
+/// Standard deviation of a slope of the logarithm of the light over the chart, as the root of the sum of its squares over the patches.
+const SLOPE: f64 = 0.2;
 const ROUNDS: usize = 30;
 
 pub(super) struct Problem {
@@ -200,20 +204,22 @@ impl Problem {
         Some(precision)
     }
 
-    /// `(I − J/n)/τ² + J/n/10²` for the n brightnesses of each shot, J of ones: only their mean, the exposure, is free.
+    /// `I/τ² + Σ u uᵀ (1/s² − 1/τ²)` for the brightnesses of each shot, with the [`fields`] u of its light and their deviations s.
     fn set_evenness(&self, precision: &mut [f64], spread: f64) {
         let size = self.lights().end;
         for shot in &self.shots {
-            let share = 1.0 / shot.len().max(1) as f64;
+            let fields = fields(shot.len());
             for (i, j) in shot.clone().flat_map(|i| shot.clone().map(move |j| (i, j))) {
                 let own = if i == j { spread.powi(-2) } else { 0.0 };
+                let of_field =
+                    |(u, s): &(Vec<f64>, f64)| u[i - shot.start] * u[j - shot.start] * (s.powi(-2) - spread.powi(-2));
                 precision[(self.bright() + i) * size + self.bright() + j] =
-                    own - share * spread.powi(-2) + share * FREE.powi(-2);
+                    own + fields.iter().map(of_field).sum::<f64>();
             }
         }
     }
 
-    /// Spread of ln b about the means of the shots, by the squares over the number of brightnesses that the data determine (`MacKay` 1992).
+    /// Spread of ln b about the fields of the shots, by the squares over the number of brightnesses that the data determine (`MacKay` 1992).
     fn spread(&self, x: &[f64], hessian: &Cholesky, former: f64) -> f64 {
         let count = self.patches.len();
         let mut columns = vec![0.0; x.len() * count];
@@ -221,13 +227,16 @@ impl Problem {
         let covariance = hessian.solve(columns);
         let (mut squares, mut determined) = (0.0, 0.0);
         for shot in &self.shots {
-            let (logs, n) = (self.logs(x, shot), shot.len() as f64);
-            let mean = logs.iter().sum::<f64>() / n;
-            squares += logs.iter().map(|log| (log - mean).powi(2)).sum::<f64>();
+            let (logs, fields) = (self.logs(x, shot), fields(shot.len()));
             let at = |i: usize, j: usize| covariance[(self.bright() + i) * count + j];
-            let variance = shot.clone().map(|i| at(i, i)).sum::<f64>()
-                - shot.clone().flat_map(|i| shot.clone().map(move |j| at(i, j))).sum::<f64>() / n;
-            determined += n - 1.0 - variance / former.powi(2);
+            let mut variance = shot.clone().map(|i| at(i, i)).sum::<f64>();
+            squares += logs.iter().map(|log| log * log).sum::<f64>();
+            for (u, _) in &fields {
+                squares -= u.iter().zip(&logs).map(|(u, log)| u * log).sum::<f64>().powi(2);
+                let pairs = || shot.clone().zip(u);
+                variance -= pairs().flat_map(|(i, u)| pairs().map(move |(j, v)| u * v * at(i, j))).sum::<f64>();
+            }
+            determined += (shot.len() - fields.len()) as f64 - variance / former.powi(2);
         }
         let next = (squares / f64::max(determined, 1e-3)).sqrt();
         next.clamp(former / 10.0, former * 10.0).max(EVENNESS[0])
@@ -321,6 +330,23 @@ impl Problem {
         let noise_ratio = (squares / freedom).sqrt();
         Solution { x, inverse, unevenness: spread, noise_ratio, unlikeness, log_posterior }
     }
+}
+
+/// What the light on some patches does by itself, as unit vectors with the deviations of their amounts: its exposure, and a slope either
+/// way where the places of the patches are known.
+fn fields(count: usize) -> Vec<(Vec<f64>, f64)> {
+    let unit = |deviation: f64, of: &dyn Fn(usize) -> f64| {
+        let all: Vec<f64> = (0..count).map(of).collect();
+        let norm = all.iter().map(|v| v * v).sum::<f64>().sqrt();
+        (all.iter().map(|v| v / norm).collect(), deviation)
+    };
+    let mut fields = vec![unit(FREE, &|_| 1.0)];
+    if count == GRID[0] {
+        let middle = |steps: usize| (steps - 1) as f64 / 2.0;
+        fields.push(unit(SLOPE, &|at| (at % GRID[1]) as f64 - middle(GRID[1])));
+        fields.push(unit(SLOPE, &|at| (at / GRID[1]) as f64 - middle(GRID[0] / GRID[1])));
+    }
+    fields
 }
 
 /// Curves on the grid that are 1 at one wavelength of a table and 0 at its others, times the weights of the trapezoid rule.

@@ -30,7 +30,7 @@ const NEAREST: usize = 5;
 
 #[derive(Debug, Args)]
 pub(super) struct ChartArguments {
-    /// Pictures of the chart (DNG, linear 16-bit TIFF or PNG) or tables of raw values, as for `identify`, one for each light or exposure
+    /// Pictures of the chart (DNG, linear 16-bit TIFF or PNG, OpenEXR) or tables of raw values, as for `identify`, one for each light or exposure
     #[arg(value_name = "PATCHES", required = true)]
     files: Vec<PathBuf>,
     /// The patches' reflectances: a chart, or a file; not for tables that have their own
