@@ -122,7 +122,7 @@ pub fn head_to_head(ranked: &Ranked, cameras: [usize; 2]) -> Table {
     }
     BETTER_HINT.clone_into(&mut table.columns[BETTER].hint);
     for column in VALUES {
-        table.columns[column].hint = "Gray: the other camera is better at 95 %.".to_owned();
+        "Gray: the other camera is better at 95 %.".clone_into(&mut table.columns[column].hint);
     }
     for metric in CameraMetric::ALL {
         let values = cameras.map(|camera| value(ranked, camera, *metric));

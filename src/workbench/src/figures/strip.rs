@@ -153,7 +153,7 @@ fn content(scene: &Scene<'_>, reference: &Locus, things: &mut PickIndex) -> Opti
         // Where lines cross or are printed in gray, markers tell them apart: each at a temperature of its own.
         let share = 0.3 + 0.08 * (content.signs.len() % 6) as f64;
         let at = points[(share * points.len() as f64) as usize % points.len().max(1)];
-        content.signs.push(sign(tag, &source, at, 4.0, source.role));
+        content.signs.push(sign(tag, source, at, 4.0, source.role));
         let [measured, beyond] = split(&points, |index| 1e6 / points[index][0], below);
         let line = |points| {
             let line = Mark::new(tag, &source.label, Shape::Line { points, closed: false });
