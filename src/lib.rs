@@ -22,7 +22,7 @@ pub use chromascope_workbench::{
     report, results, scene, terminal,
 };
 
-use chromascope_workbench::{format, names};
+use chromascope_workbench::format;
 
 pub mod app;
 pub mod command;

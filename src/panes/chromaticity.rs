@@ -26,6 +26,9 @@ const STRIP: f32 = 124.0;
 const MULTIPLES: f32 = 136.0;
 /// Below this height of the diagram there is no strip.
 const WITH_STRIP: f32 = 350.0;
+/// Share of a low pane that the cameras' differences take beside the diagram, and its least width.
+const COLUMN: f32 = 0.385;
+const WITH_COLUMN: f32 = 520.0;
 const OVERVIEW: Vec2 = Vec2::new(96.0, 104.0);
 
 pub const PANE: Pane = Pane::new(PaneKind::CHROMATICITY, "Chromaticity", show)
@@ -43,27 +46,31 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     }
     let body = widgets::lines::caution(ui, body, context);
     let multiples = context.scene.document.overlays.multiples;
-    let below = if multiples { MULTIPLES } else { STRIP };
     let fits = body.height() >= WITH_STRIP;
-    let strip_height = if fits { below } else { 0.0 };
-    let cut = body.bottom() - if fits { below } else { ROW };
-    diagram(ui, body.with_max_y(cut), context);
-    if !fits {
+    // In a low pane differences stand beside the diagram, which is wider than its data.
+    let beside = multiples && !fits && body.width() >= WITH_COLUMN && body.height() >= MULTIPLES;
+    let cut = if beside {
+        Pos2::new(body.right() - (COLUMN * body.width()).round(), body.bottom())
+    } else {
+        let below = if multiples { MULTIPLES } else { STRIP };
+        Pos2::new(body.right(), body.bottom() - if fits { below } else { ROW })
+    };
+    diagram(ui, Rect::from_min_max(body.min, cut), context);
+    let place = if beside { body.with_min_x(cut.x + UNIT) } else { body.with_min_y(cut.y + UNIT) };
+    if multiples && (fits || beside) {
+        widgets::differences::plots(ui, place, DifferencePlane::UvPrime, context);
+    } else if fits {
+        show_strip(ui, place, context);
+    } else {
         let what = if multiples { "the cameras' differences" } else { "the strip over the temperature" };
         let words = format!("No room for {what}: fill the window (F)");
-        let line = body.with_min_y(cut);
+        let line = body.with_min_y(cut.y);
         let response = ui.interact(line, Id::unique("no room below the diagram"), egui::Sense::click());
         widgets::labeled(&response, egui::Role::Button, &words);
         widgets::lines::elided(ui, line, &words, egui::TextStyle::Small, context.theme.weak);
         if response.clicked() {
             context.push(Command::Maximize(PANE.kind));
         }
-    }
-    let place = body.with_min_y(cut + UNIT);
-    if strip_height > 0.0 && multiples {
-        widgets::differences::plots(ui, place, DifferencePlane::UvPrime, context);
-    } else if strip_height > 0.0 {
-        show_strip(ui, place, context);
     }
 }
 

@@ -15,6 +15,9 @@ use crate::theme::UNIT;
 use crate::view::Sorting;
 use crate::workspaces::PaneKind;
 
+/// Width from which on the better camera has a column.
+const WITH_BETTER: f32 = 440.0;
+
 pub const PANE: Pane =
     Pane::new(PaneKind::HEAD_TO_HEAD, "Head to head", show).tab("Against").figure(&figure::KIND).under_conditions();
 
@@ -51,7 +54,9 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
             note.uncertainty = None;
         });
     }
-    let shown = DataTable::new(PaneKind::HEAD_TO_HEAD, "Head to head", &table);
+    // Gray says it, too.
+    table.columns[metrics::BETTER].starts_hidden = body.width() < WITH_BETTER;
+    let shown = DataTable::new(PaneKind::HEAD_TO_HEAD, "Head to head", &table).with_quantities();
     // The table reaches to the pane's edge: a narrow pane shows the first three columns whole.
     let place = Rect::from_min_max(
         egui::pos2(body.left() - 1.5 * UNIT, top.min(body.bottom())),

@@ -14,7 +14,7 @@ pub mod walk;
 
 use std::time::Duration;
 
-use chromascope_figure::{FigureRoom, Ink, LegendEntry, Stroke, Table};
+use chromascope_figure::{FigureRoom, Table};
 use chromascope_text::Choice;
 use egui::{
     Align, Align2, Button, Color32, FontId, Key, Layout, Modifiers, Rect, Response, RichText, ScrollArea, Sense, Shape,
@@ -24,6 +24,7 @@ use egui::{
 use crate::command::Command;
 use crate::export::FigureForm;
 use crate::export::profile::CorrectionForm;
+use crate::figures::chromaticity::key;
 use crate::jobs::PATIENCE;
 use crate::paint;
 use crate::panes::context::{Pane, PaneContext};
@@ -436,18 +437,9 @@ pub fn pressed<T: Copy + PartialEq>(ui: &mut Ui, choices: &[(T, &str, &str)], cu
     clicked
 }
 
-pub fn legend_entry(source: &ComparedSensor) -> LegendEntry {
-    LegendEntry {
-        name: source.label.clone(),
-        stroke: Some(Stroke::solid(source.role, source.width)),
-        marker: Some(source.marker),
-        fill: source.marker.has_inside().then(|| Ink::new(source.role)),
-    }
-}
-
 pub fn source_key(ui: &mut Ui, source: &ComparedSensor, theme: &Theme) -> Response {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(26.0, ROW), Sense::hover());
-    paint::key(ui.painter(), rect, &legend_entry(source), theme);
+    paint::key(ui.painter(), rect, &key(source, String::new()), theme);
     response
 }
 

@@ -142,7 +142,7 @@ fn each_line_has_its_name_clear_of_the_data() {
             let count = sources.len();
             // Above six beside the reference the legend names them.
             sources.retain(|source| source.is_reference || count <= 7);
-            (sources.into_iter().map(|source| source.label).collect::<Vec<_>>(), count)
+            (sources.into_iter().map(|source| [source.label, source.short]).collect::<Vec<_>>(), count)
         };
         for (view, size) in [View::default(), whole()].iter().flat_map(|view| SIZES.map(|size| (view, size))) {
             let built = built(&document, view, size);
@@ -153,11 +153,9 @@ fn each_line_has_its_name_clear_of_the_data() {
             let panel = built.lens.map_or(built.panel, |lens| lens.panel);
             let size = [panel.area.width(), panel.area.height()];
             let texts = texts(&panel, size);
-            let named = |label: &String| {
-                // Shortened where there is little room.
-                texts.iter().find(|(text, _)| text.len() > 2 && label.contains(text.as_str()))
-            };
-            let missing: Vec<&String> = labels.iter().filter(|label| named(label).is_none()).collect();
+            // Shortened where there is little room.
+            let named = |label: &[String; 2]| texts.iter().find(|(text, _)| label.contains(text));
+            let missing: Vec<&[String; 2]> = labels.iter().filter(|label| named(label).is_none()).collect();
             let has_room = size[0] >= 640.0 || size[0] >= 440.0 && count <= 5;
             assert!(missing.is_empty() || !has_room, "{missing:?} in {size:?}");
             let leaders = panel.marks.iter().filter(|mark| mark.name.ends_with(", leader"));

@@ -10,7 +10,7 @@ use chromascope::results::Results;
 use chromascope::scene::Scene;
 use chromascope::workspaces::PaneKind;
 use chromascope_core::light::RadiationConstants;
-use chromascope_core::query::{Ask as _, LocusDeviationsQuery, LocusQuery, NearestBlackBodyQuery};
+use chromascope_core::query::{Ask as _, Displacements, LocusDeviationsQuery, LocusQuery, NearestBlackBodyQuery};
 use chromascope_figure::{FigureRoom, Shape, text_area};
 use egui_kittest::kittest::Queryable as _;
 
@@ -102,8 +102,11 @@ fn charts_of_a_fourth_camera_are_all_in_sight() {
 
 #[test]
 fn what_has_no_room_is_named_and_what_is_seen_is_explained() {
-    let mut window = open_with(Document::colorimetry(), [900.0, 600.0], egui::Theme::Dark);
-    assert!(says(&window, "No room for the cameras' differences"));
+    let window = open_with(Document::colorimetry(), [900.0, 600.0], egui::Theme::Dark);
+    let plots = window.get_by_role_and_label(egui::accesskit::Role::Canvas, "Differences").rect();
+    assert!(!says(&window, "No room") && plots.width() > 200.0 && plots.height() > 200.0, "{plots:?}");
+    let mut window = open_with(Document::paper(), [900.0, 600.0], egui::Theme::Dark);
+    assert!(says(&window, "No room for the strip over the temperature"));
     window.state_mut().view.show(PaneKind::SPECTRA);
     window.run_steps(3);
     assert!(!says(&window, "No room"));
@@ -113,6 +116,23 @@ fn what_has_no_room_is_named_and_what_is_seen_is_explained() {
     window.state_mut().view.show(PaneKind::SPECTRA);
     window.run_steps(3);
     assert!(!says(&window, "thick line: ") && !says(&window, "arrows: "));
+}
+
+#[test]
+fn mean_vectors_have_the_hues_of_their_planes() {
+    let of = |plane, to: &[[f64; 2]]| {
+        let shift = Displacements::new(to.iter().map(|to| (Some([0.0; 2]), Some(*to))));
+        differences::hue::of(plane, &shift, [0.31, 0.33, 50.0])
+    };
+    let [uv, xy, lab] = [DifferencePlane::UvPrime, DifferencePlane::Xy, DifferencePlane::Lab];
+    assert_eq!(of(uv, &[[0.01, 0.001]]), "toward red");
+    assert_eq!(of(uv, &[[0.0, -0.01]]), "toward blue");
+    assert_eq!(of(uv, &[[-0.007, 0.005]]), "toward green");
+    assert_eq!(of(xy, &[[0.01, 0.0]]), "toward red");
+    assert_eq!(of(xy, &[[0.0, 0.01]]), "toward yellow-green");
+    assert_eq!(of(lab, &[[0.0, 1.0]]), "toward yellow");
+    assert_eq!(of(lab, &[[1.0, -1.0]]), "toward purple");
+    assert_eq!(of(lab, &[[1.0, 0.0], [-1.0, 0.1]]), "no common hue");
 }
 
 #[test]

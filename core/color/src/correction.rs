@@ -65,9 +65,9 @@ impl CorrectionMethod {
             Self::Minimize(Objective::LabSquares) => ("lab-least-squares", "Matrix by least squares in L*a*b*"),
             Self::Minimize(Objective::DeltaE1976) => ("min-delta-e-ab", "Matrix by minimum mean ΔE*ab"),
             Self::Minimize(Objective::DeltaE2000) => ("min-delta-e", "Matrix by minimum mean ΔE*00"),
-            Self::RootPolynomial(Degree::Two) => ("root-polynomial", "Root polynomial of degree 2 (6 terms)"),
-            Self::RootPolynomial(Degree::Three) => ("root-polynomial-3", "Root polynomial of degree 3 (13 terms)"),
-            Self::RootPolynomial(Degree::Four) => ("root-polynomial-4", "Root polynomial of degree 4 (22 terms)"),
+            Self::RootPolynomial(Degree::Two) => ("root-polynomial", "Root polynomial, degree 2"),
+            Self::RootPolynomial(Degree::Three) => ("root-polynomial-3", "Root polynomial, degree 3"),
+            Self::RootPolynomial(Degree::Four) => ("root-polynomial-4", "Root polynomial, degree 4"),
         }
     }
 

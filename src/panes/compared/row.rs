@@ -6,7 +6,6 @@ use crate::action::{Action, CompareAction};
 use crate::command::Command;
 use crate::document::SetKind;
 use crate::format::fixed;
-use crate::names::fitted;
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::{self, focus_rim, lines, sets};
 use crate::plot_item::PlotItem;
@@ -136,9 +135,7 @@ fn label(ui: &Ui, rect: Rect, row: Rect, id: Id, source: &ComparedSensor, contex
         ui.painter().rect_stroke(row, 3.0, stroke, egui::StrokeKind::Inside);
     }
     let color = context.theme.text.gamma_multiply(if source.visible { 1.0 } else { FADED + 0.25 });
-    let all: Vec<String> = context.scene.sources().into_iter().map(|source| source.label).collect();
-    let fits = |form: &str| lines::width(ui, form, TextStyle::Body) <= rect.width();
-    let shown = fitted(&source.label, &all, fits);
+    let shown = source.fitted(&context.scene.sources(), |form| lines::width(ui, form, TextStyle::Body) <= rect.width());
     lines::elided(ui, rect, &shown, TextStyle::Body, color);
     let cut = shown != source.label;
     if response.clicked() {

@@ -16,6 +16,8 @@ use crate::panes::widgets::sets;
 
 /// Width of the names before lists, so that these stand below each other.
 const CAPTION: f32 = 78.0;
+/// Width of a class with its weight.
+const WEIGHT: f32 = 110.0;
 
 /// The camera that is corrected; none where none is selected or compared.
 pub(super) fn camera(ui: &mut Ui, context: &mut PaneContext<'_>) -> Option<String> {
@@ -109,6 +111,9 @@ pub(super) fn training(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let shown = context.view.correction.shown.clone();
     ui.horizontal_wrapped(|ui| {
         for class in ColorClass::ALL {
+            if ui.available_size_before_wrap().x < WEIGHT {
+                ui.end_row();
+            }
             let mut weight = choice.weights[class as usize];
             let count = shown.as_ref().map(|file| file.sheet.first.report.classes[class as usize]);
             let hint = match count {

@@ -19,7 +19,7 @@ use crate::theme::{ROW, Theme, UNIT};
 use crate::view::tour::Tour;
 use crate::workspaces::PaneKind;
 
-const CARD: Vec2 = Vec2::new(200.0, 92.0);
+const CARD: Vec2 = Vec2::new(200.0, 76.0);
 const KEY: f32 = 26.0;
 /// Color of the arrow in the key.
 const ARROW: [u8; 3] = [196, 78, 88];
@@ -40,21 +40,21 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let diagram = shown(PaneKind::CHROMATICITY);
     if diagram {
         let thick = line(InkRole::Reference, Marker::Plus, 4.0);
-        let words = "thick line: Planckian locus of the reference, 20000 to 1000 K";
+        let words = "thick line: Planckian locus, reference";
         entry(ui, words, |ui, rect| paint::key(ui.painter(), rect, &thick, &theme));
         let colored = line(InkRole::Sensor(0), Marker::Circle, 2.0);
-        let words = "colored: each camera's locus, patches with tails to the reference's";
+        let words = "colored: loci and patches of cameras";
         entry(ui, words, |ui, rect| paint::key(ui.painter(), rect, &colored, &theme));
     }
     if shown(PaneKind::DIFFERENCES) || diagram && context.scene.document.overlays.multiples {
-        let words = "arrows: each patch's error; cross: their mean; dashed ring: 95 % of them";
+        let words = "arrows: errors of patches; dashed ring: 95 % of them; cross: their mean vector";
         entry(ui, words, |ui, rect| {
             let stroke = egui::Stroke::new(2.0, theme.role(InkRole::Rgb(ARROW)));
             ui.painter().arrow(rect.left_center() + Vec2::new(2.0, 4.0), Vec2::new(20.0, -8.0), stroke);
         });
     }
     if shown(PaneKind::SWATCHES) {
-        let words = "swatches: left the reference, right the camera; the bar is the difference";
+        let words = "swatches: left reference, right camera";
         entry(ui, words, |ui, rect| swatch(ui, rect, &theme));
     }
     if let Some(words) = caveat(context) {

@@ -1,12 +1,12 @@
 //! Layout of pictures in the pane; drawing of them with captions, pinned pixel and divider.
 
-use chromascope_figure::{Ink, InkRole, Mark, Panel, Rect as Area, Shape};
+use chromascope_figure::{Ink, InkRole, Panel, Rect as Area};
 use egui::{Align2, CursorIcon, FontId, Key, Painter, Pos2, Rect, Sense, Stroke, TextStyle, Ui, UiBuilder, Vec2};
 
-use crate::figures::chromaticity::id;
+use crate::figures::chromaticity::{id, sign};
+use crate::figures::filled;
 use crate::figures::render::headline::{Detail, Measure};
-use crate::figures::render::{difference as maps, index_of};
-use crate::names;
+use crate::figures::render::{difference as maps, has_reference_beside, index_of};
 use crate::paint::{self, PictureQuery};
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::pick_list::{self, Line};
@@ -37,7 +37,7 @@ pub(super) fn pictures(ui: &mut Ui, painter: &Painter, layout: &PictureLayout, c
         let blinking = context.view.blink && scale.is_none();
         let drawn = if blinking { layout.sources.first().and_then(index_in) } else { found };
         if let Some((shot, at)) = drawn {
-            picture(ui, painter, layout, index, (shot, at), scale, context);
+            picture(ui, painter, layout, index, (shot, at), scale.filter(|_| !source.is_reference), context);
         }
         if layout.mode == RenderMode::Grid || layout.mode == RenderMode::Difference {
             let note = found.and_then(|(shot, at)| note(shot, at, cell.caption.width()));
@@ -139,13 +139,10 @@ fn caption(
     let words = title(source);
     let left = Rect::from_min_max(rect.min + Vec2::new(20.0, 0.0), rect.max - Vec2::new(right, 0.0));
     let fits = |words: &str| lines::width(ui, words, TextStyle::Body) <= left.width();
-    let shown = match &words {
-        words if fits(words) => words.clone(),
-        _ if source.is_reference => "Reference".to_owned(),
-        _ => {
-            let all: Vec<String> = context.scene.visible_sources().into_iter().map(|source| source.label).collect();
-            names::fitted(&source.label, &all, fits)
-        }
+    let shown = match source.is_reference {
+        true if fits(&words) => words.clone(),
+        true => "Reference".to_owned(),
+        false => source.fitted(&context.scene.visible_sources(), fits),
     };
     let cut = shown != words || !fits(&shown);
     lines::elided(ui, left, &shown, TextStyle::Body, color);
@@ -163,9 +160,7 @@ fn marker(painter: &Painter, rect: Rect, source: &ComparedSensor, context: &Pane
     let size = [f64::from(rect.width()), f64::from(rect.height())];
     let area = Area::from_min_size([0.0, 0.0], size);
     let mut panel = Panel::board("marker", area, Ink::new(InkRole::Surround));
-    let shape = Shape::Points { points: vec![size.map(|side| side / 2.0)], marker: source.marker, radius: 5.0 };
-    let mark = Mark::new(PickIndex::NONE, source.label.clone(), shape).with_stroke(InkRole::OnSurround, 1.5);
-    panel.marks.push(if source.marker.has_inside() { mark.with_fill(InkRole::OnSurround) } else { mark });
+    panel.marks.push(sign(PickIndex::NONE, source, size.map(|side| side / 2.0), 5.0, InkRole::OnSurround));
     paint::still(painter, &panel, &context.theme, rect);
 }
 
@@ -310,6 +305,8 @@ fn scale_of_differences(
 pub(super) const CAPTION: f32 = 24.0;
 const GAP: f32 = 8.0;
 const SCALE: f32 = 40.0;
+/// Least width over height of a picture with a chart beside the head: a higher one were empty above.
+const COMPOSED: f32 = 1.1;
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PictureSlot {
@@ -333,9 +330,14 @@ impl PictureLayout {
     /// Places pictures in an area, as large as they can be.
     pub(super) fn new(all: &[ComparedSensor], body: Rect, pixels_per_point: f32, context: &PaneContext<'_>) -> Self {
         let mode = context.view.saved.render.mode;
+        let image = context.images.chosen(&context.scene.document.render.mesh);
+        let composed = context.scene.document.render.composed && image.is_none();
         let (sources, shown) = match mode {
             RenderMode::Grid => (all.to_vec(), (0..all.len()).collect::<Vec<_>>()),
-            RenderMode::Difference => (all.to_vec(), (1..all.len()).collect()),
+            RenderMode::Difference => {
+                let with_reference = composed && has_reference_beside(all.len().saturating_sub(1));
+                (all.to_vec(), (usize::from(!with_reference)..all.len()).collect())
+            }
             RenderMode::Split | RenderMode::One => {
                 let chosen = chosen(all, context.view.render.chosen.as_ref());
                 let mut sources = all.first().cloned().into_iter().collect::<Vec<_>>();
@@ -349,9 +351,9 @@ impl PictureLayout {
             (mode == RenderMode::Difference && !shown.is_empty()).then(|| body.with_min_y(body.bottom() - SCALE));
         let area = Rect::from_min_max(body.min, body.max - Vec2::new(0.0, scale.map_or(0.0, |s| s.height())));
         let overlaid = mode == RenderMode::Split;
-        let image = context.images.chosen(&context.scene.document.render.mesh);
-        let aspect = image.map(|image| image.info.width as f32 / image.info.height as f32);
-        let (columns, size) = grid(area.size(), if overlaid { 1 } else { shown.len() });
+        let aspect = image.as_ref().map(|image| image.info.width as f32 / image.info.height as f32);
+        let least = if composed { COMPOSED } else { 0.0 };
+        let (columns, size) = grid(area.size(), if overlaid { 1 } else { shown.len() }, least);
         let pixels = [size.x, size.y].map(|side| (side * pixels_per_point).floor().max(1.0));
         let whole = Vec2::new(pixels[0], pixels[1]) / pixels_per_point;
         let snapped = |at: Pos2| {
@@ -410,15 +412,20 @@ fn fitted(place: Rect, aspect: Option<f32>) -> Rect {
     Rect::from_min_size(Pos2::new(left.round(), place.top()), Vec2::new(width, width / aspect))
 }
 
-/// Number of pictures side by side, and their size: such that the smaller side is as large as it can be.
-fn grid(area: Vec2, count: usize) -> (usize, Vec2) {
+/// Number of pictures side by side, and their size: the largest of at most twice as much width as height or the reverse, and of at
+/// least so much width for their height; a place that were empty counts as what it takes from the others.
+fn grid(area: Vec2, count: usize, least: f32) -> (usize, Vec2) {
     let mut best = (1, Vec2::splat(1.0));
+    let merit = |columns, size: Vec2| {
+        let side = size.min_elem();
+        side * size.max_elem().min(2.0 * side) * filled(count, columns) as f32
+    };
     for columns in 1..=count.max(1) {
         let rows = count.div_ceil(columns).max(1);
         let width = (area.x - GAP * (columns - 1) as f32) / columns as f32;
         let height = area.y / rows as f32 - CAPTION;
-        let size = Vec2::new(width.max(1.0), height.max(1.0));
-        let better = size.min_elem() > best.1.min_elem() + 0.5;
+        let size = Vec2::new(width.max(1.0), height.clamp(1.0, (width / least).max(1.0)));
+        let better = merit(columns, size) > merit(best.0, best.1);
         if better || columns == 1 {
             best = (columns, size);
         }

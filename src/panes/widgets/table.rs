@@ -32,6 +32,8 @@ pub struct DataTable<'a> {
     item: Option<&'a dyn Fn(usize) -> Option<PlotItem>>,
     first: Option<Sorting>,
     compact: bool,
+    /// Rows are quantities of their own.
+    ragged: bool,
     scrolls: bool,
     drawn: Option<Drawn<'a>>,
 }
@@ -56,7 +58,7 @@ pub struct TableOutput {
 impl<'a> DataTable<'a> {
     /// A table of a pane. `id` names its order and columns in what is saved between runs.
     pub fn new(pane: PaneKind, id: &'a str, table: &'a Table) -> Self {
-        Self { pane, id, table, item: None, first: None, compact: false, scrolls: false, drawn: None }
+        Self { pane, id, table, item: None, first: None, compact: false, ragged: false, scrolls: false, drawn: None }
     }
 
     /// Compact table that is as wide as its columns need, for a place that scrolls.
@@ -69,6 +71,12 @@ impl<'a> DataTable<'a> {
     #[must_use]
     pub fn with_items(self, item: &'a dyn Fn(usize) -> Option<PlotItem>) -> Self {
         Self { item: Some(item), ..self }
+    }
+
+    /// Table whose rows are quantities of their own: their points do not line up.
+    #[must_use]
+    pub fn with_quantities(self) -> Self {
+        Self { ragged: true, ..self }
     }
 
     #[must_use]
@@ -117,7 +125,7 @@ impl<'a> DataTable<'a> {
 
     /// Shows a few rows between other lines of text: without bar and scrolling, at their own height.
     pub fn show_compact(self, ui: &mut Ui, context: &PaneContext<'_>) -> TableOutput {
-        let table = Self { compact: true, ..self };
+        let table = Self { compact: true, ragged: true, ..self };
         let shown = (0..table.table.columns.len()).collect();
         let order: Vec<usize> = (0..table.table.rows.len()).collect();
         let mut body = table.body(shown, order, &TableLook::default(), context);
@@ -138,7 +146,7 @@ impl<'a> DataTable<'a> {
         let layouts = (0..self.table.columns.len()).map(|index| match self.drawn {
             _ if !shown.contains(&index) => Layout::HIDDEN,
             Some(drawn) if drawn.column == index => Layout { width: drawn.width, ..Layout::HIDDEN },
-            _ => Layout::of(self.table, index, self.compact),
+            _ => Layout::of(self.table, index, (self.compact, self.ragged)),
         });
         Body::new(self, layouts.collect(), shown, order, look, context)
     }

@@ -27,6 +27,11 @@ mod whiskers;
 
 use kind::FigureKind;
 
+/// Share of the places in so many columns that a number of things fills.
+pub fn filled(count: usize, columns: usize) -> f64 {
+    count as f64 / count.next_multiple_of(columns.max(1)).max(1) as f64
+}
+
 /// All kinds, in the order in which the command line lists them.
 pub static FIGURES: &[&FigureKind] = &[
     &chromaticity::KIND,

@@ -47,6 +47,8 @@ use crate::document::{
     Compared, Document, Exaggeration, FIT_TARGET, LOCUS_RANGE_K, Light, SetKind, Subset, TransformChoice,
     WhiteBalanceChoice,
 };
+use crate::format::cut_in_middle;
+use crate::names::shortest;
 use crate::results::Results;
 
 /// Number of points a locus on screen has.
@@ -84,6 +86,8 @@ pub struct ComparedSensor {
     pub kind: SetKind,
     pub name: String,
     pub label: String,
+    /// The label where room is short, of cameras by what distinguishes them.
+    pub short: String,
     pub role: InkRole,
     pub marker: Marker,
     /// The width of its lines in points.
@@ -91,6 +95,14 @@ pub struct ComparedSensor {
     pub is_reference: bool,
     pub is_own: bool,
     pub visible: bool,
+}
+
+impl ComparedSensor {
+    /// The label where those of all sensors fit, else the short one, with its middle cut where even that does not.
+    pub fn fitted(&self, all: &[Self], fits: impl Fn(&str) -> bool) -> String {
+        let words = if all.iter().all(|one| fits(&one.label)) { &self.label } else { &self.short };
+        cut_in_middle(words, fits).into_owned()
+    }
 }
 
 /// A condition under which the values have an unusual meaning.
@@ -436,6 +448,14 @@ impl<'a> Scene<'a> {
         let mut sources: Vec<ComparedSensor> =
             self.document.compared.iter().map(|c| self.source(c, &mut observers)).collect();
         sources.sort_by_key(|source| !source.is_reference);
+        let cameras = sources.iter().filter(|source| source.kind == SetKind::Camera);
+        let short = shortest(cameras.map(|source| source.label.as_str()));
+        for (source, short) in sources.iter_mut().filter(|source| source.kind == SetKind::Camera).zip(short) {
+            // A label of the user's stays.
+            if source.short.is_empty() {
+                source.short = short;
+            }
+        }
         sources
     }
 
@@ -452,10 +472,13 @@ impl<'a> Scene<'a> {
             }
             _ => (InkRole::Sensor(compared.slot % 8), Marker::source(compared.slot.into()), 2.0),
         };
+        let own = compared.label.clone();
+        let label = own.clone().unwrap_or(short);
         ComparedSensor {
             kind: compared.kind,
             name: compared.name.clone(),
-            label: compared.label.clone().unwrap_or(short),
+            short: own.unwrap_or_else(|| if compared.kind == SetKind::Camera { String::new() } else { label.clone() }),
+            label,
             role,
             marker,
             width,

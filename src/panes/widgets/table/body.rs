@@ -32,7 +32,7 @@ pub(super) struct Body<'a> {
     sticks: bool,
     /// A column is cut at the right, or out of sight there.
     goes_on: bool,
-    /// Air at the right of cells that a narrow compact table does without.
+    /// Air at the right of cells that a narrow table does without.
     spared: f32,
     frozen: bool,
     pub(super) hovered: Option<usize>,
@@ -126,6 +126,11 @@ impl<'a> Body<'a> {
             && f64::from(*last) > WIDEST_TEXT
         {
             *last += left.max(0.0);
+        }
+        // Names and air give way to a column that lacks little room.
+        let (room, air) = (rect.width() - 3.0 * UNIT, SPARE * widths.len().saturating_sub(1) as f32);
+        if left < 0.0 && widths.iter().sum::<f32>() - air - (widths[0] - LEAST_NAME).max(0.0) <= room {
+            self.spared = fit(&mut widths, room);
         }
         self.sticks = widths.len() > 1 && widths[0] < WIDEST_FROZEN * rect.width();
         let page = ((rect.height() - self.head_height()) / self.default_row_height()).floor() as usize;
@@ -245,8 +250,7 @@ impl<'a> Body<'a> {
             ui.painter().rect_filled(ground, 2.0, self.theme.shade(share));
         }
         let written = self.number_in_words(cell, value, column);
-        // Rows of a compact table are quantities of their own: their points stand apart anyway.
-        let written = if self.of.compact { written.trim_end() } else { &written };
+        let written = if self.of.ragged { written.trim_end() } else { &written };
         let mut place = rect;
         place.max.x -= layout.uncertainty;
         if layout.form == Form::Text {
@@ -273,7 +277,9 @@ fn fit(widths: &mut [f32], width: f32) -> f32 {
     spare
 }
 
-/// Air of a compact table's column that it can do without.
+/// Least width of names that others take room from.
+const LEAST_NAME: f32 = 72.0;
+/// Air of a column that it can do without.
 const SPARE: f32 = 2.0 * UNIT;
 
 impl TableDelegate for Body<'_> {

@@ -42,8 +42,8 @@ pub(super) struct Layout {
 impl Layout {
     pub(super) const HIDDEN: Self = Self { form: Form::Text, width: 0.0, uncertainty: 0.0, shades: None };
 
-    /// Rows of a compact table hold quantities of their own.
-    pub(super) fn of(table: &Table, index: usize, compact: bool) -> Self {
+    /// Where rows hold quantities of their own, their points need not line up.
+    pub(super) fn of(table: &Table, index: usize, (compact, ragged): (bool, bool)) -> Self {
         let column = &table.columns[index];
         let size = if compact { TextSize::Small } else { TextSize::Body };
         let cells = || (0..table.rows.len()).map(|row| table.cell(row, index));
@@ -63,7 +63,7 @@ impl Layout {
         let extremes = numbers().fold([0.0_f64; 2], |[low, high], value| [low.min(value), high.max(value)]);
         let written = |value: f64| text_width(&words(value, form, None), TextSize::Mono);
         let number = if form == Form::Text { numbers().map(written).fold(0.0, f64::max) } else { 0.0 };
-        let number = if compact {
+        let number = if ragged {
             let words = numbers().zip(&own).map(|(value, own)| words(value, form, *own));
             words.map(|words| text_width(words.trim_end(), TextSize::Mono)).fold(number, f64::max)
         } else {

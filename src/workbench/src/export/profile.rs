@@ -373,7 +373,7 @@ pub fn file_name(file: &CorrectionFile, form: CorrectionForm) -> String {
 
 fn polynomial_table(polynomial: &RootPolynomial) -> String {
     let line = |(index, c): (usize, &DVec3)| {
-        format!("{:<10}{:14.6}{:14.6}{:14.6}", RootPolynomial::term_name(index), c.x, c.y, c.z)
+        format!("{:<10}{:11.6}{:11.6}{:11.6}", RootPolynomial::term_name(index), c.x, c.y, c.z)
     };
     polynomial.coefficients().iter().enumerate().map(line).collect::<Vec<_>>().join("\n")
 }

@@ -14,8 +14,8 @@ use std::collections::BTreeSet;
 use chromascope_core::colorimetry::{UvPrime, Xy, Xyz};
 use chromascope_core::light::Cct;
 use chromascope_figure::{
-    Axis, AxisRanges, Cell, Field, Figure, FigureRoom, InkRole, LegendEntry, LegendPlace, Mark, Numbers, Panel,
-    Projection, Rect, Shape, Stroke, Table, Ticks, auto_ticks,
+    Axis, AxisRanges, Cell, Field, Figure, FigureRoom, Ink, InkRole, LegendEntry, LegendPlace, Mark, Numbers, Panel,
+    Projection, Rect, Shape, Stroke, Table, Tag, Ticks, auto_ticks,
 };
 
 use chromascope_core::spectral::sensor::TAIL_BELOW_K;
@@ -250,6 +250,13 @@ fn keep_inside(table: &mut Table, diagram: Diagram, ranges: Ranges) {
 
 fn legend_entry(source: &ComparedSensor) -> LegendEntry {
     key(source, if source.is_reference { format!("{} (reference)", source.label) } else { source.label.clone() })
+}
+
+/// A sensor's marker at a place.
+pub fn sign(tag: Tag, source: &ComparedSensor, at: [f64; 2], radius: f64, ink: impl Into<Ink> + Copy) -> Mark {
+    let shape = Shape::Points { points: vec![at], marker: source.marker, radius };
+    let mark = Mark::new(tag, &source.label, shape).with_stroke(ink, 1.5);
+    if source.marker.has_inside() { mark.with_fill(ink) } else { mark }
 }
 
 /// A sensor's line and marker with a name.

@@ -1,6 +1,7 @@
 //! Each camera's differences from the reference, large: arrows from the reference's place, a plot for each camera, all on one
 //! scale; or the offsets of the Planckian loci over the temperature.
 
+pub mod hue;
 mod loci;
 mod targets;
 
@@ -38,13 +39,13 @@ fn place(plane: DifferencePlane, color: &PatchColor) -> Option<[f64; 2]> {
     }
 }
 
-/// Names of the axes, and decimals of a difference.
-const fn axes(plane: DifferencePlane) -> ([&'static str; 2], usize) {
+/// Names of the axes and of a difference's length, and its decimals.
+const fn axes(plane: DifferencePlane) -> ([&'static str; 3], usize) {
     match plane {
-        DifferencePlane::UvPrime => (["Δu′", "Δv′"], 4),
-        DifferencePlane::Xy => (["Δx", "Δy"], 4),
-        DifferencePlane::Lab => (["Δa*", "Δb*"], 2),
-        DifferencePlane::Loci => (["ΔT", "Duv"], 4),
+        DifferencePlane::UvPrime => (["Δu′", "Δv′", "Δu′v′"], 4),
+        DifferencePlane::Xy => (["Δx", "Δy", "Δxy"], 4),
+        DifferencePlane::Lab => (["Δa*", "Δb*", "Δa*b*"], 2),
+        DifferencePlane::Loci => (["ΔT", "Duv", ""], 4),
     }
 }
 

@@ -108,8 +108,9 @@ pub fn numbers(scene: &Scene<'_>, ranked: &Ranked) -> Table {
     numbers.with_constants(scene.metrics_constants(scene.document.temperature_k))
 }
 
-/// Columns of the difference of two cameras, and of their values.
+/// Columns of the difference of two cameras, of the better one, and of their values.
 pub const DIFFERENCE: usize = 1;
+pub const BETTER: usize = 2;
 pub const VALUES: [usize; 2] = [3, 4];
 
 /// Two cameras head to head: each metric with the difference, the camera better by more than the uncertainty, and both values;
@@ -119,7 +120,10 @@ pub fn head_to_head(ranked: &Ranked, cameras: [usize; 2]) -> Table {
     for column in &mut table.columns {
         column.decimals = Some(0);
     }
-    BETTER_HINT.clone_into(&mut table.columns[2].hint);
+    BETTER_HINT.clone_into(&mut table.columns[BETTER].hint);
+    for column in VALUES {
+        "Gray: the other camera is better at 95 %.".clone_into(&mut table.columns[column].hint);
+    }
     for metric in CameraMetric::ALL {
         let values = cameras.map(|camera| value(ranked, camera, *metric));
         let pair = values[0].zip(values[1]);
@@ -141,8 +145,8 @@ pub fn head_to_head(ranked: &Ranked, cameras: [usize; 2]) -> Table {
             Cell::from(format!("{} {}", metric.symbol, unit(metric)).trim_end()).with(|note| note.hint = hint),
             difference.with(exact).with(gray),
             Cell::from(words).with(gray),
-            a,
-            b,
+            a.with(|note| note.is_gray = words == "B"),
+            b.with(|note| note.is_gray = words == "A"),
         ]);
     }
     table

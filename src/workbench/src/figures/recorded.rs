@@ -41,7 +41,7 @@ fn figure(_: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> 
     figure.legend = legend();
     figure.legend_place = LegendPlace::Outside;
     figure.caption = format!(
-        "Recorded over modeled raw values of {name}, 100 ln; RMS {} %, {} values, {} fitted parameters; {}. Named: the patches \
+        "Recorded over modeled raw values of {name} in percent (100 ln); RMS {} %, {} values, {} fitted parameters; {}. Named: the patches \
          with the largest residuals.",
         fixed(fit.rms() * 100.0, 2),
         fit.values,

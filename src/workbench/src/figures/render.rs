@@ -11,11 +11,10 @@ use chromascope_figure::{
 use spectral_image::ImageQuantity;
 
 use self::headline::{Detail, Measure};
-use super::chromaticity::{transform_words, viewing_conditions};
+use super::chromaticity::{sign, transform_words, viewing_conditions};
 use super::kind::{FigureKind, Need};
 use super::look::{FigureLook, PixelPlace, RenderMode};
 use crate::format::fixed;
-use crate::names::fitted;
 use crate::plot_item::{PickIndex, SensorId};
 use crate::render_service::RenderedFrame;
 use crate::render_service::made::MadePictures;
@@ -49,10 +48,15 @@ pub fn picture_width(room: FigureRoom, count: usize) -> f64 {
     room.width.map_or(WIDTH, |width| ((width - GAP) / across - GAP).max(1.0))
 }
 
+/// True if maps of so many sensors leave a place empty, which the reference takes.
+pub fn has_reference_beside(compared: usize) -> bool {
+    !compared.is_multiple_of(columns(compared))
+}
+
 /// Pictures shown, by index: all, or all but the reference, which is beside maps only in a place that were empty.
 fn shown(shot: &RenderedFrame, mode: RenderMode) -> Vec<usize> {
     let compared = shot.sources.iter().filter(|source| !source.is_reference).count();
-    let is_free = mode == RenderMode::Difference && !compared.is_multiple_of(columns(compared));
+    let is_free = mode == RenderMode::Difference && has_reference_beside(compared);
     let only_compared = compared > 0 && matches!(mode, RenderMode::One | RenderMode::Difference) && !is_free;
     (0..shot.sources.len()).filter(|at| !(only_compared && shot.sources[*at].is_reference)).collect()
 }
@@ -145,7 +149,8 @@ impl<'a> PictureCell<'a> {
         let label = if source.is_reference { format!("Reference, {}", source.label) } else { source.label.clone() };
         // Maps are of the differences as they are.
         let exaggerated = shot.query.exaggeration().note().filter(|_| !is_map && !source.is_reference);
-        let label = exaggerated.map_or(label.clone(), |note| format!("{label}, {note}"));
+        let named = |name: &str| exaggerated.as_ref().map_or(name.to_owned(), |note| format!("{name}, {note}"));
+        let (label, short) = (named(&label), named(&source.short));
         let difference = shot.made().and_then(|made| made.differences.get(at)?.as_ref());
         let words = |detail| difference.map(|difference| Measure::of_frame(shot).words(difference, detail));
         let all = words(Detail::Quantiles).unwrap_or_default();
@@ -157,10 +162,10 @@ impl<'a> PictureCell<'a> {
         if both <= width {
             return Self { at, source, lines: vec![(label.clone(), TextSize::Body)], named: 1, label, note, is_short };
         }
-        let labels: Vec<String> = shot.sources.iter().map(|source| source.label.clone()).collect();
-        let fits = |form: &str| text_width(form, TextSize::Small) + Self::KEY <= width;
-        let short = if source.is_reference { "Reference".to_owned() } else { fitted(&label, &labels, fits) };
-        let name: Vec<_> = lines(&short, TextSize::Small, width - Self::KEY).collect();
+        let fits = |form: &&str| text_width(form, TextSize::Small) + Self::KEY <= width;
+        let forms = if source.is_reference { ["Reference"; 2] } else { [label.as_str(), short.as_str()] };
+        let short = forms.into_iter().find(fits).unwrap_or(forms[1]);
+        let name: Vec<_> = lines(short, TextSize::Small, width - Self::KEY).collect();
         let named = name.len();
         let lines = name.into_iter().chain(lines(&note, TextSize::Small, width)).collect();
         Self { at, source, label, lines, named, note: String::new(), is_short }
@@ -173,9 +178,8 @@ impl<'a> PictureCell<'a> {
 
     fn heading(&self, [x, y]: [f64; 2], width: f64, ink: Ink) -> Vec<Mark> {
         let middle = y + LINE / 2.0;
-        let marker = Shape::Points { points: vec![[x + 7.0, middle]], marker: self.source.marker, radius: 5.0 };
-        let mark = Mark::new(PickIndex::NONE, self.label.clone(), marker).with_stroke(ink, 1.5);
-        let mut marks = vec![if self.source.marker.has_inside() { mark.with_fill(ink) } else { mark }];
+        let mark = sign(PickIndex::NONE, self.source, [x + 7.0, middle], 5.0, ink);
+        let mut marks = vec![Mark { name: self.label.clone(), ..mark }];
         for (row, (words, size)) in self.lines.iter().enumerate() {
             let inset = if row < self.named { Self::KEY } else { 0.0 };
             let at = [x + inset, middle + SMALL_LINE * row as f64];

@@ -8,7 +8,7 @@ use chromascope_figure::{
     Projection, Rect, Shape, TextSize, Ticks, text_width,
 };
 
-use super::chromaticity::{self, distance_symbol, id};
+use super::chromaticity::{self, distance_symbol, id, sign};
 use super::kind::FigureKind;
 use super::look::FigureLook;
 use crate::document::{Diagram, LOCUS_RANGE_K, SetKind};
@@ -153,9 +153,7 @@ fn content(scene: &Scene<'_>, reference: &Locus, things: &mut PickIndex) -> Opti
         // Where lines cross or are printed in gray, markers tell them apart: each at a temperature of its own.
         let share = 0.3 + 0.08 * (content.signs.len() % 6) as f64;
         let at = points[(share * points.len() as f64) as usize % points.len().max(1)];
-        let sign = Shape::Points { points: vec![at], marker: source.marker, radius: 4.0 };
-        let sign = Mark::new(tag, &source.label, sign).with_stroke(source.role, 1.5);
-        content.signs.push(if source.marker.has_inside() { sign.with_fill(source.role) } else { sign });
+        content.signs.push(sign(tag, source, at, 4.0, source.role));
         let [measured, beyond] = split(&points, |index| 1e6 / points[index][0], below);
         let line = |points| {
             let line = Mark::new(tag, &source.label, Shape::Line { points, closed: false });

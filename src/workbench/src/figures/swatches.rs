@@ -32,6 +32,14 @@ struct Row {
 }
 
 impl Row {
+    fn name(&self, is_short: bool) -> &str {
+        match &self.source {
+            source if source.is_reference => "Reference",
+            source if is_short => &source.short,
+            source => &source.label,
+        }
+    }
+
     /// The largest difference with its patch; of the reference none.
     fn worst<'a>(&self, names: &'a [String]) -> Option<(f64, &'a String)> {
         let named = self.colors.iter().flatten().zip(names);

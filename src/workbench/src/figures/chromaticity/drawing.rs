@@ -9,7 +9,6 @@ use chromascope_figure::{InkRole, Label, Labels, Mark, Panel, Place, Projection,
 use super::shown::Ranges;
 use crate::document::Diagram;
 use crate::figures::look::FigureLook;
-use crate::names::shortened;
 use crate::plot_item::{PickIndex, SensorId};
 use crate::scene::{ComparedSensor, Scene};
 
@@ -158,16 +157,11 @@ pub(super) fn label(rank: Rank, text: impl Into<String>, ink: InkRole, places: V
 pub(super) fn placed(mut all: Vec<(Rank, Label)>, panel: &Panel) -> Vec<Mark> {
     let mut labels = Labels::new(panel);
     all.sort_by_key(|(rank, label)| (*rank, label.ink.role != InkRole::Reference));
-    let sensors = all.iter().filter(|(rank, _)| *rank == Rank::Sensor);
-    let names: Vec<String> = sensors.map(|(_, label)| label.text.clone()).collect();
     let end = |label: &Label| Some(labels.projection().at(*label.starts.last()?));
     let sensors = all.iter().filter(|(rank, _)| *rank == Rank::Sensor);
     let ends: Vec<[f64; 2]> = sensors.filter_map(|(_, label)| end(label)).collect();
     for (rank, label) in &mut all {
         let Some([x, y]) = end(label).filter(|_| *rank == Rank::Sensor) else { continue };
-        if matches!(label.ink.role, InkRole::Sensor(_)) {
-            label.shorter = shortened(&label.text, &names);
-        }
         let is_crowded = ends.iter().filter(|end| (end[0] - x).hypot(end[1] - y) < CROWDED).count() > 1;
         // The reference's line is thick enough to be told by itself.
         if is_crowded && label.ink.role != InkRole::Reference {

@@ -5,6 +5,7 @@ use chromascope_core::units::Kelvin;
 use chromascope_figure::{Dash, Ink, InkRole, Label, Mark, Marker, Place, Shape, TextSize};
 
 use super::drawing::{Drawing, Rank, id, label};
+use super::sign;
 use crate::plot_item::{PickIndex, PlotItem, SensorId};
 use crate::scene::locus::split;
 use crate::scene::{ComparedSensor, Scene};
@@ -157,10 +158,8 @@ fn add_marker(drawing: &mut Drawing<'_>, source: &ComparedSensor, points: &[[f64
     let at = places.find(is_free).or_else(|| at_share(0.5))?;
     drawing.halfway.push(at);
     let tag = drawing.things.tag(PlotItem::Sensor(id(source)));
-    let shape = Shape::Points { points: vec![frame.value(at)], marker: source.marker, radius: HALFWAY };
-    let mark = Mark::new(tag, format!("{}, line", source.label), shape).with_stroke(source.role, 1.5);
-    let mark = if source.marker.has_inside() { mark.with_fill(source.role) } else { mark };
-    drawing.small.push(mark.with_halo(InkRole::Plot));
+    let mark = sign(tag, source, frame.value(at), HALFWAY, source.role);
+    drawing.small.push(Mark { name: format!("{}, line", source.label), ..mark }.with_halo(InkRole::Plot));
     Some(frame.value(at))
 }
 
@@ -191,8 +190,11 @@ fn add_end(drawing: &mut Drawing<'_>, source: &ComparedSensor, points: &[[f64; 2
     }
     let tag = drawing.things.tag(PlotItem::Sensor(id(source)));
     let starts = marker.into_iter().chain(start.copied()).collect();
-    let (rank, label) = label(Rank::Sensor, &source.label, source.role, places);
-    drawing.labels.push((rank, Label { tag, starts, ..label }));
+    // In the window, as in its list; on paper without a legend in full, where there is room.
+    let in_window = drawing.look.diagram.fit().is_some();
+    let text = if in_window { &source.short } else { &source.label };
+    let (rank, label) = label(Rank::Sensor, text, source.role, places);
+    drawing.labels.push((rank, Label { tag, starts, shorter: vec![source.short.clone()], ..label }));
 }
 
 /// The ring at the document's temperature.

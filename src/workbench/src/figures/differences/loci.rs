@@ -10,6 +10,7 @@ use chromascope_figure::{
 
 use super::{Built, id, sources};
 use crate::document::{Diagram, SetKind};
+use crate::figures::chromaticity::sign;
 use crate::figures::strip;
 use crate::plot_item::{PickIndex, PlotItem};
 use crate::scene::locus::split;
@@ -103,9 +104,7 @@ pub(super) fn build(scene: &Scene<'_>, size: [f64; 2]) -> Result<Built, String> 
             }
             let share = 0.3 + 0.08 * (index % 6) as f64;
             let at = points[(share * points.len() as f64) as usize % points.len().max(1)];
-            let sign = Shape::Points { points: vec![at], marker: source.marker, radius: 4.0 };
-            let sign = Mark::new(tag, &source.label, sign).with_stroke(source.role, 1.5);
-            signs.push(if source.marker.has_inside() { sign.with_fill(source.role) } else { sign });
+            signs.push(sign(tag, source, at, 4.0, source.role));
             if let Some((kelvin, offset)) = minimum(scene, source) {
                 let at = [1e6 / kelvin, height(&offset)];
                 let tag = things.tag(PlotItem::Radiator { source: id(source), kelvin: kelvin.round() });

@@ -10,8 +10,9 @@ use chromascope_figure::{
     clip_segment, text_area, text_width, wrapped,
 };
 
-use super::{Built, Compared, axes, compared, id, place};
+use super::{Built, Compared, axes, compared, hue, id, place};
 use crate::document::{SetKind, TransformChoice};
+use crate::figures::chromaticity::sign;
 use crate::figures::look::{DifferencePlane, FigureLook};
 use crate::format::{cut_in_middle, fixed, number};
 use crate::plot_item::{PickIndex, PlotItem};
@@ -30,66 +31,92 @@ const RINGS: f64 = 20.0;
 /// Points of a closed line.
 const CORNERS: u32 = 96;
 
+/// Width of a cell in which numbers and hue have no room beside a short name.
+const NARROW: f64 = 215.0;
+/// Least mean length of arrows that the rings of all cameras may take by their room, in points.
+const LEAST_MEAN: f64 = 12.0;
+
 /// Cells of all cameras, and the scale that they share.
 pub(super) struct Frame {
-    columns: usize,
-    cell: [f64; 2],
+    /// Each with its words above.
+    cells: Vec<Rect>,
     /// Height of the words above a plot.
     head: f64,
-    /// The reference's place in a plot, from its upper left corner.
+    /// The reference's place in a plot, from its middle.
     origin: [f64; 2],
     /// Points for each unit of the plane.
     pub(super) scale: f64,
 }
 
 impl Frame {
-    /// The arrangement of cells with the largest scale. What fits: all but the largest twentieth of each camera's arrows, and
-    /// the just visible limit. Exaggerated, the scale grows about the reference.
+    /// The arrangement of cells with the largest scale. What fits: all but the largest twentieth of each camera's arrows, the
+    /// just visible limit, and the rings unless arrows become too short for them. Exaggerated, the scale grows about the
+    /// reference.
     pub(super) fn of(scene: &Scene<'_>, all: &[Compared], plane: DifferencePlane, size: [f64; 2]) -> Self {
-        let least = limit(scene, plane).into_iter();
-        let arrows = all.iter().flat_map(|one| &one.shift).flat_map(|shift| {
+        let shifts = || all.iter().flat_map(|one| &one.shift);
+        let arrows = shifts().flat_map(|shift| {
             let is_usual = |v: &&[f64; 2]| v[0].hypot(v[1]) <= 1.1 * shift.p95;
             shift.vectors.iter().flatten().filter(is_usual).copied()
         });
+        let inner: Vec<[f64; 2]> = limit(scene, plane).into_iter().chain(arrows).collect();
+        let ring = shifts().map(|shift| shift.p95).fold(0.0, f64::max);
+        let shortest = shifts().map(|shift| shift.mean_length).fold(f64::INFINITY, f64::min);
+        let whole = Self::holding(&[inner.as_slice(), &circle(ring)].concat(), all.len(), size);
+        let best = if whole.scale * shortest < LEAST_MEAN { Self::holding(&inner, all.len(), size) } else { whole };
+        Self { scale: best.scale * scene.document.exaggeration.factor(), ..best }
+    }
+
+    /// The arrangement of so many cells with the largest scale that holds these points.
+    fn holding(points: &[[f64; 2]], count: usize, size: [f64; 2]) -> Self {
         let (mut low, mut high) = ([-1e-9; 2], [1e-9; 2]);
-        for point in least.chain(arrows) {
+        for point in points {
             for axis in 0..2 {
                 low[axis] = f64::min(low[axis], point[axis]);
                 high[axis] = f64::max(high[axis], point[axis]);
             }
         }
-        let count = all.len().max(1);
-        let frames = (1..=count).map(|columns| {
-            let rows = count.div_ceil(columns) as f64;
-            let cell = [(size[0] - GAP) / columns as f64 - GAP, (size[1] - GAP) / rows - GAP];
-            let head = if cell[1] > 180.0 { HEAD + LINE } else { HEAD };
-            let room = [cell[0], cell[1] - head].map(|side| (side - 2.0 * TIP[0]).max(4.0));
-            let fits = (room[0] / (high[0] - low[0])).min(room[1] / (high[1] - low[1]));
-            let origin = [
-                TIP[0] + 0.5 * (room[0] - fits * (high[0] + low[0])),
-                TIP[0] + 0.5 * (room[1] + fits * (high[1] + low[1])),
-            ];
-            Self { columns, cell, head, origin, scale: fits }
-        });
-        let best = frames.reduce(|a, b| if b.scale > a.scale { b } else { a });
-        let best = best.unwrap_or(Self { columns: 1, cell: size, head: HEAD, origin: [0.0; 2], scale: 1.0 });
-        Self { scale: best.scale * scene.document.exaggeration.factor(), ..best }
+        let frame = |columns: usize| {
+            let rows = count.max(1).div_ceil(columns);
+            let [width, height] = [size[0] - GAP, (size[1] - GAP) / rows as f64];
+            let head = if height - GAP > 180.0 { HEAD + LINE } else { HEAD };
+            let cell = |index: usize| {
+                let (row, column) = (index / columns, index % columns);
+                // Fewer in the last row fill it.
+                let width = width / columns.min(count - row * columns) as f64;
+                let corner = [GAP + column as f64 * width, GAP + row as f64 * height];
+                Rect::from_min_size(corner, [width - GAP, height - GAP])
+            };
+            let room = [width / columns as f64 - GAP, height - GAP - head].map(|side| (side - 2.0 * TIP[0]).max(4.0));
+            let scale = (room[0] / (high[0] - low[0])).min(room[1] / (high[1] - low[1]));
+            let origin = [-0.5 * scale * (high[0] + low[0]), 0.5 * scale * (high[1] + low[1])];
+            Self { cells: (0..count).map(cell).collect(), head, origin, scale }
+        };
+        // A narrow cell has no room for what its head says.
+        let merit = |frame: &Self| frame.scale * if frame.width() < NARROW { 0.7 } else { 1.0 };
+        (2..=count).map(frame).fold(frame(1), |best, other| if merit(&other) > merit(&best) { other } else { best })
     }
 
-    fn corner(&self, index: usize) -> [f64; 2] {
-        let (row, column) = (index / self.columns, index % self.columns);
-        [GAP + column as f64 * (self.cell[0] + GAP), GAP + row as f64 * (self.cell[1] + GAP)]
+    /// Width of the narrowest cell: those of the first row.
+    fn width(&self) -> f64 {
+        self.cells.first().map_or(0.0, Rect::width)
+    }
+
+    /// A camera's plot.
+    fn plot(&self, index: usize) -> Rect {
+        let Rect { min, max } = self.cells[index];
+        Rect { min: [min[0], min[1] + self.head], max }
     }
 
     /// Distance of the reference's place from the farthest corner of a plot, in points.
-    fn reach(&self) -> f64 {
-        let [x, y] = self.origin;
-        x.max(self.cell[0] - x).hypot(y.max(self.cell[1] - self.head - y))
+    fn reach(&self, plot: Rect) -> f64 {
+        let [x, y] = self.origin.map(f64::abs);
+        (0.5 * plot.width() + x).hypot(0.5 * plot.height() + y)
     }
 
     /// A round length whose rings are far enough from each other, and few.
     fn step(&self) -> f64 {
-        let least = RINGS.max(self.reach() / 5.0) / self.scale;
+        let reach = if self.cells.is_empty() { 0.0 } else { self.reach(self.plot(0)) };
+        let least = RINGS.max(reach / 5.0) / self.scale;
         let decade = 10_f64.powf(least.log10().floor());
         [1.0, 2.0, 5.0].map(|step| step * decade).into_iter().find(|step| *step >= least).unwrap_or(10.0 * decade)
     }
@@ -105,7 +132,8 @@ struct Target<'a> {
 impl Target<'_> {
     fn at(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let Frame { origin, scale, .. } = self.frame;
-        [self.area.min[0] + origin[0] + x * scale, self.area.min[1] + origin[1] - y * scale]
+        let [left, top] = [0, 1].map(|axis| 0.5 * (self.area.min[axis] + self.area.max[axis]) + origin[axis]);
+        [left + x * scale, top - y * scale]
     }
 
     /// A closed line around the reference, where it lies in the plot.
@@ -188,12 +216,17 @@ fn circle(radius: f64) -> Vec<[f64; 2]> {
     (0..CORNERS).map(point).collect()
 }
 
+/// Mean of the reference's patches, of which those with a chromaticity count, with the mean of their L*.
+fn middle(scene: &Scene<'_>, plane: DifferencePlane) -> [f64; 3] {
+    let colors = scene.patch_colors(SetKind::Observer, &scene.document.reference).unwrap_or_default();
+    let known = colors.iter().filter_map(|color| Some((place(plane, color)?, color.lab.map_or(0.0, |lab| lab.l))));
+    let known: Vec<[f64; 3]> = known.map(|([a, b], l)| [a, b, l]).collect();
+    [0, 1, 2].map(|axis| known.iter().map(|color| color[axis]).sum::<f64>() / known.len().max(1) as f64)
+}
+
 /// Outline of differences that are just visible, at the mean of the reference's patches; none where nothing says so.
 fn limit(scene: &Scene<'_>, plane: DifferencePlane) -> Vec<[f64; 2]> {
-    let colors = scene.patch_colors(SetKind::Observer, &scene.document.reference).unwrap_or_default();
-    let known: Vec<[f64; 2]> = colors.iter().filter_map(|color| place(plane, color)).collect();
-    let count = known.len().max(1) as f64;
-    let [a, b] = known.iter().fold([0.0; 2], |sum, point| [sum[0] + point[0] / count, sum[1] + point[1] / count]);
+    let [a, b, l] = middle(scene, plane);
     match plane {
         DifferencePlane::UvPrime => circle(JUST_VISIBLE_UV_PRIME),
         DifferencePlane::Xy => {
@@ -203,7 +236,6 @@ fn limit(scene: &Scene<'_>, plane: DifferencePlane) -> Vec<[f64; 2]> {
         }
         // By Eq 13 there is no CIE L*a*b*.
         DifferencePlane::Lab if scene.document.transform != TransformChoice::Paper => {
-            let l = colors.iter().filter_map(|color| Some(color.lab?.l / count)).sum();
             unit_contour(Metric::DELTA_E_2000, Lab { l, a, b }, CORNERS)
         }
         DifferencePlane::Lab | DifferencePlane::Loci => Vec::new(),
@@ -236,12 +268,10 @@ pub(super) fn build(
     let mut panel = Panel::board("Differences", Rect::from_min_size([0.0; 2], size), Ink::new(InkRole::Plot));
     let mut texts = Vec::new();
     let limit = limit(scene, plane);
-    let heads = Heads::new(&frame, &all, axes(plane).1, scene.document.exaggeration.note());
+    let heads = Heads::new(scene, &frame, &all, plane);
     for (index, one) in all.iter().enumerate() {
-        let corner = frame.corner(index);
         heads.add(&mut panel, index, one, &mut things);
-        let min = [corner[0], corner[1] + frame.head];
-        let area = Rect { min, max: [corner[0] + frame.cell[0], corner[1] + frame.cell[1]] };
+        let area = frame.plot(index);
         let mut target = Target { frame: &frame, area, marks: Vec::new() };
         target.ground(plane, index == 0, &mut texts);
         match &one.shift {
@@ -259,7 +289,7 @@ pub(super) fn build(
                     let starts = limit.iter().step_by(12).map(|point| target.at(*point)).collect();
                     texts.push(Label { starts, ..Label::new(words, InkRole::Weak, Vec::new()) });
                 }
-                target.outline("95 % quantile of the lengths", &circle(shift.p95), ink, (1.2, Dash::Dashed));
+                target.ring(shift.p95, ink, axes(plane).1, &mut texts);
                 let patches = Patches { one, names: &names, reference: &reference, look, decimals: axes(plane).1 };
                 patches.add(&mut target, shift, &mut things, &mut texts);
                 let cross = Shape::Points { points: vec![target.at(shift.mean)], marker: Marker::Cross, radius: 4.5 };
@@ -283,74 +313,82 @@ pub(super) fn build(
     Ok(Built { panels: vec![panel], things })
 }
 
-/// Heads of all cameras, their statistics in one form: the longest that fits beside the shortest names.
+/// Heads of all cameras, their statistics in one form: the longest that fits beside the short names.
 struct Heads<'a> {
     frame: &'a Frame,
-    /// Names, all in full or all shortened.
-    names: Vec<String>,
-    decimals: usize,
+    plane: DifferencePlane,
+    /// Hue that each mean vector points to.
+    hues: Vec<&'static str>,
     note: Option<String>,
     form: usize,
+    /// Names are shortened.
+    is_short: bool,
 }
 
 impl<'a> Heads<'a> {
     /// Room of the marker before the name, and between name and statistics.
     const KEY: f64 = 17.0;
     const AIR: f64 = 6.0;
+    const FORMS: usize = 5;
 
-    fn new(frame: &'a Frame, all: &[Compared], decimals: usize, note: Option<String>) -> Self {
-        let full: Vec<String> = all.iter().map(|one| one.source.label.clone()).collect();
-        let short = crate::names::shortest(full.iter().map(String::as_str));
-        let heads = Self { frame, names: Vec::new(), decimals, note, form: 0 };
-        let fit = |names: &[String], form: usize| {
-            all.iter().zip(names).all(|(one, name)| {
-                let words = text_width(&heads.statistics(one, form), TextSize::Small);
+    fn new(scene: &Scene<'_>, frame: &'a Frame, all: &[Compared], plane: DifferencePlane) -> Self {
+        let middle = middle(scene, plane);
+        let hue = |one: &Compared| one.shift.as_ref().map_or("", |shift| hue::of(plane, shift, middle));
+        let (hues, note) = (all.iter().map(hue).collect(), scene.document.exaggeration.note());
+        let heads = Self { frame, plane, hues, note, form: Self::FORMS, is_short: true };
+        let fit = |is_short: bool, form: usize| {
+            all.iter().enumerate().all(|(index, one)| {
+                let words = text_width(&heads.statistics(index, one, form), TextSize::Small);
                 let air = if words > 0.0 { Self::AIR } else { 0.0 };
-                let wide =
-                    if heads.is_below() { Self::named(name).max(words) } else { Self::named(name) + air + words };
-                wide <= frame.cell[0]
+                let name = Self::KEY + text_width(Self::name(one, is_short), TextSize::Body);
+                let wide = if heads.is_below() { name.max(words) } else { name + air + words };
+                wide <= frame.width()
             })
         };
-        let form = (0..4).find(|form| fit(&short, *form)).unwrap_or(4);
-        let names = if fit(&full, form) { full } else { short };
-        Self { names, form, ..heads }
+        let form = (0..Self::FORMS).find(|form| fit(true, *form)).unwrap_or(Self::FORMS);
+        let is_short = !fit(false, form);
+        Self { form, is_short, ..heads }
+    }
+
+    fn name(one: &Compared, is_short: bool) -> &str {
+        if is_short { &one.source.short } else { &one.source.label }
     }
 
     fn is_below(&self) -> bool {
         self.frame.head > HEAD
     }
 
-    fn named(name: &str) -> f64 {
-        Self::KEY + text_width(name, TextSize::Body)
-    }
-
     /// Statistics in words, shorter from form to form; the exaggeration is never left out.
-    fn statistics(&self, one: &Compared, form: usize) -> String {
+    fn statistics(&self, index: usize, one: &Compared, form: usize) -> String {
         let Ok(shift) = &one.shift else { return String::new() };
-        let [mean, p95] = [shift.mean_length, shift.p95].map(|length| fixed(length, self.decimals));
+        let ([.., delta], decimals) = axes(self.plane);
+        let [mean, p95, cross] =
+            [shift.mean_length, shift.p95, shift.mean[0].hypot(shift.mean[1])].map(|length| fixed(length, decimals));
+        let hue = self.hues[index];
         let words = match form {
-            0 => format!("mean {mean}, 95 % {p95}"),
-            1 => format!("mean {mean}"),
-            2 => mean,
+            0 => format!("mean {delta} {mean}, 95 % {p95}; cross {cross}, {hue}"),
+            1 => format!("mean {delta} {mean}; cross: {hue}"),
+            2 => format!("mean Δ {mean}; × {hue}"),
+            3 => format!("Δ {mean}; × {hue}"),
+            4 => mean,
             _ => String::new(),
         };
         let note = self.note.as_deref().unwrap_or_default();
         // In little room only its factor.
-        let note = if form > 3 { note.rsplit(' ').next().unwrap_or(note) } else { note };
+        let note = if form >= Self::FORMS { note.rsplit(' ').next().unwrap_or(note) } else { note };
         [words.as_str(), note].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("; ")
     }
 
     fn add(&self, panel: &mut Panel, index: usize, one: &Compared, things: &mut PickIndex) {
-        let (source, corner, width) = (&one.source, self.frame.corner(index), self.frame.cell[0]);
+        let (source, corner, width) = (&one.source, self.frame.cells[index].min, self.frame.cells[index].width());
         let tag = things.tag(PlotItem::Sensor(id(source)));
         let middle = corner[1] + 0.5 * HEAD;
-        let shape = Shape::Points { points: vec![[corner[0] + 6.0, middle]], marker: source.marker, radius: 4.5 };
-        let key = Mark::new(tag, &source.label, shape).with_stroke(source.role, 1.5);
-        panel.marks.push(if source.marker.has_inside() { key.with_fill(source.role) } else { key });
-        let words = self.statistics(one, self.form);
+        panel.marks.push(sign(tag, source, [corner[0] + 6.0, middle], 4.5, source.role));
+        let words = self.statistics(index, one, self.form);
         let beside = text_width(&words, TextSize::Small) + Self::AIR;
         let room = if self.is_below() || words.is_empty() { width } else { width - beside };
-        let name = cut_in_middle(&self.names[index], |name| Self::named(name) <= room);
+        let fits = |name: &str| Self::KEY + text_width(name, TextSize::Body) <= room;
+        let name = cut_in_middle(Self::name(one, self.is_short), fits);
         let name = Mark::text(name, [corner[0] + Self::KEY, middle], Anchor::LEFT, TextSize::Body, InkRole::Text);
         panel.marks.push(Mark { tag, ..name });
         let (at, anchor) = if self.is_below() {
@@ -363,6 +401,31 @@ impl<'a> Heads<'a> {
 }
 
 impl Target<'_> {
+    /// The ring around most arrows; its radius beside it where the frame cuts it.
+    fn ring(&mut self, radius: f64, ink: InkRole, decimals: usize, texts: &mut Vec<Label>) {
+        let points = circle(radius);
+        self.outline("95 % quantile of the lengths", &points, ink, (1.2, Dash::Dashed));
+        if !points.iter().all(|point| self.area.contains(self.at(*point))) {
+            let label = self.radius(format!("95 %: {}", fixed(radius, decimals)), radius);
+            texts.insert(0, Label { shorter: vec!["95 %".to_owned()], ..label });
+        }
+    }
+
+    /// Words beside a ring, off the lines through the reference, where there is room for them.
+    fn radius(&self, words: String, radius: f64) -> Label {
+        let place = |[u, v]: [f64; 2], anchor, offset| Place { at: self.at([u * radius, v * radius]), anchor, offset };
+        let beside = [[1.0, 0.0], [-1.0, 0.0]].map(|to| place(to, Anchor::TOP, [0.0, 2.0]));
+        let above = [[0.0, -1.0], [0.0, 1.0]].map(|to| place(to, Anchor::LEFT, [3.0, 0.0]));
+        // Within a wide ring's sides.
+        let sides = [[-0.94, -0.34], [0.94, -0.34], [-0.94, 0.34], [0.94, 0.34]].map(|to| {
+            let (anchor, inward) = if to[0] < 0.0 { (Anchor::LEFT, 9.0) } else { (Anchor::RIGHT, -9.0) };
+            place(to, anchor, [inward, 0.0])
+        });
+        let places = beside.into_iter().chain(above).chain(sides);
+        let inside = places.filter(|place| self.holds(&words, place)).collect();
+        Label::new(words, InkRole::Weak, inside)
+    }
+
     /// Frame, lines through the reference, and rings of round lengths; names of axes and lengths where they are free.
     fn ground(&mut self, plane: DifferencePlane, named: bool, texts: &mut Vec<Label>) {
         let Rect { min, max } = self.area;
@@ -373,24 +436,14 @@ impl Target<'_> {
         self.segment("reference", [[x, min[1]], [x, max[1]]], InkRole::Grid, 1.0);
         let step = self.frame.step();
         let small = |text: String, places: Vec<Place>| Label::new(text, InkRole::Weak, places);
-        for count in 1..=(self.frame.reach() / (step * self.frame.scale)) as u32 {
+        for count in 1..=(self.frame.reach(self.area) / (step * self.frame.scale)) as u32 {
             let radius = f64::from(count) * step;
             self.outline(&format!("length {}", number(radius)), &circle(radius), InkRole::Grid, (1.0, Dash::Solid));
             if named || self.area.width() > 180.0 {
-                let directions = [[1.0, 0.0], [0.0, -1.0], [-1.0, 0.0], [0.0, 1.0]];
-                let places = directions.map(|[u, v]| {
-                    let at = self.at([u * radius, v * radius]);
-                    // Beside its ring, off the line through the reference.
-                    let (anchor, offset) =
-                        if v == 0.0 { (Anchor::TOP, [0.0, 2.0]) } else { (Anchor::LEFT, [3.0, 0.0]) };
-                    Place { at, anchor, offset }
-                });
-                let words = number(radius);
-                let inside = places.into_iter().filter(|place| self.holds(&words, place)).collect();
-                texts.push(small(words, inside));
+                texts.push(self.radius(number(radius), radius));
             }
         }
-        let [across, up] = axes(plane).0;
+        let [across, up, _] = axes(plane).0;
         texts.push(small(
             across.to_owned(),
             vec![Place { at: [max[0], y], anchor: Anchor::RIGHT_BOTTOM, offset: [-3.0, -2.0] }],
@@ -443,10 +496,10 @@ impl Patches<'_> {
 pub(super) fn words(scene: &Scene<'_>, plane: DifferencePlane, size: [f64; 2]) -> String {
     let all = compared(scene, plane).map_or_else(|_| Vec::new(), |(_, all)| all);
     let frame = Frame::of(scene, &all, plane, size);
-    let heads = Heads::new(&frame, &all, axes(plane).1, scene.document.exaggeration.note());
-    let numbers = if heads.form == 2 { " Numbers: mean length." } else { "" };
+    let heads = Heads::new(scene, &frame, &all, plane);
+    let numbers = if heads.form > 1 { " Numbers: mean length of the arrows." } else { "" };
     let step = number(frame.step());
-    let [x, y] = axes(plane).0;
+    let [x, y, _] = axes(plane).0;
     let by_eq_13 = plane == DifferencePlane::Lab && scene.document.transform == TransformChoice::Paper;
     let eq_13 = if by_eq_13 { " L*a*b* of Eq 13 colors, which is not that of the CIE." } else { "" };
     format!(

@@ -214,9 +214,7 @@ fn sign(tag: Tag, source: &ComparedSensor, spectrum: &SpectralDistribution, peak
     let last = values.windows(2).rposition(|ends| ends[0] >= height && ends[1] < height)?;
     let share = (values[last] - height) / (values[last] - values[last + 1]);
     let at = [nm[last] + share * (nm[last + 1] - nm[last]), height / peak];
-    let shape = Shape::Points { points: vec![at], marker: source.marker, radius: 3.5 };
-    let mark = Mark::new(tag, &source.label, shape).with_stroke(source.role, 1.5);
-    Some(if source.marker.has_inside() { mark.with_fill(source.role) } else { mark })
+    Some(chromaticity::sign(tag, source, at, 3.5, source.role))
 }
 
 /// Band of the uncertainty of one of the curves that a file states it for, divided by the curve's peak.

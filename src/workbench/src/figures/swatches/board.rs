@@ -5,9 +5,10 @@ use chromascope_figure::{Anchor, Ink, InkRole, Mark, Rect, Shape, Tag, TextSize,
 
 use super::{NARROW, Row, short};
 use crate::document::{Exaggeration, SetKind};
-use crate::figures::chromaticity::id;
+use crate::figures::chromaticity::{id, sign};
+use crate::figures::filled;
 use crate::figures::look::{FigureLook, SwatchStyle};
-use crate::names::{fitted, shortest};
+use crate::format::cut_in_middle;
 use crate::plot_item::{PickIndex, PlotItem};
 use crate::scene::{ComparedSensor, Scene};
 
@@ -35,6 +36,9 @@ const NUMBERED: f64 = 0.4;
 const HATCH: f64 = 5.0;
 /// The height of a chart's head.
 const HEAD: f64 = 20.0;
+/// Room of the marker before a name, and least space between a name and what stands behind it.
+const KEY: f64 = 18.0;
+const AIR: f64 = 8.0;
 /// The least width of a column with a name.
 const LEAST_COLUMN: f64 = 68.0;
 
@@ -42,8 +46,6 @@ pub(super) struct Board<'a> {
     scene: &'a Scene<'a>,
     look: &'a FigureLook,
     pub(super) names: Vec<String>,
-    /// Labels of the sensors, which are shortened by what distinguishes them.
-    labels: Vec<String>,
     reference: Vec<PatchColor>,
     pub(super) marks: Vec<Mark>,
     pub(super) things: PickIndex,
@@ -79,8 +81,7 @@ impl Note {
 impl<'a> Board<'a> {
     pub(super) fn new(scene: &'a Scene<'a>, look: &'a FigureLook, names: Vec<String>) -> Self {
         let reference = scene.patch_colors(SetKind::Observer, &scene.document.reference).unwrap_or_default();
-        let labels = scene.visible_sources().into_iter().map(|source| source.label).collect();
-        Self { scene, look, names, labels, reference, marks: Vec::new(), things: PickIndex::default(), widest: 0.0 }
+        Self { scene, look, names, reference, marks: Vec::new(), things: PickIndex::default(), widest: 0.0 }
     }
 
     /// What fits below a swatch of a width.
@@ -106,6 +107,7 @@ impl<'a> Board<'a> {
     pub(super) fn rows(&mut self, rows: &[Row], size: [f64; 2]) -> f64 {
         let widest = rows.iter().map(|row| text_width(&row.source.label, TextSize::Body)).fold(40.0, f64::max);
         let head = (widest + 30.0).min(0.3 * size[0]);
+        let is_short = head < widest + 30.0;
         let room = size[0] - 2.0 * MARGIN - head;
         let count = self.names.len().max(1);
         let most = ((room / (LEAST_COLUMN + GAP)) as usize).clamp(1, count);
@@ -132,8 +134,7 @@ impl<'a> Board<'a> {
             for row in rows {
                 let (note, pitch) =
                     if row.source.is_reference { (Note::None, pitch - note.height()) } else { (note, pitch) };
-                let label = if row.source.is_reference { "Reference" } else { &row.source.label };
-                self.row_head(&row.source, label, [MARGIN, y + (pitch - GAP - note.height()) / 2.0], head);
+                self.row_head(&row.source, row.name(is_short), [MARGIN, y + (pitch - GAP - note.height()) / 2.0], head);
                 match &row.colors {
                     Err(why) => self.text(PickIndex::NONE, why, [MARGIN + head, y + pitch / 2.0], Anchor::LEFT),
                     Ok(colors) => {
@@ -178,11 +179,12 @@ impl<'a> Board<'a> {
         self.widest = self.widest_number(&rows) + 4.0;
         let chart = [columns as f64 * (cell[0] + GAP / 2.0), lines as f64 * (cell[1] + GAP / 2.0) + HEAD];
         let pitch = (size[0] / across as f64).max(chart[0] + 2.0 * MARGIN);
-        let short = shortest(rows.iter().map(|row| row.source.label.as_str()));
-        for (index, (row, short)) in rows.iter().zip(&short).enumerate() {
+        let width = (pitch - 2.0 * MARGIN).min(chart[0].max(200.0));
+        let form = self.head_form(&rows, width);
+        for (index, row) in rows.iter().enumerate() {
             let x = MARGIN + (index % across) as f64 * pitch;
             let y = MARGIN + (index / across) as f64 * (chart[1] + MARGIN);
-            self.chart_head(row, short, [x, y + 8.0], (pitch - 2.0 * MARGIN).min(chart[0].max(200.0)));
+            self.chart_head(row, form, [x, y + 8.0], width);
             match &row.colors {
                 Err(why) => {
                     for (line, words) in wrapped(why, TextSize::Body, pitch - MARGIN).iter().enumerate() {
@@ -214,32 +216,48 @@ impl<'a> Board<'a> {
         }
     }
 
+    /// The largest difference of a chart in words, in one of three forms.
+    fn worst_words(&self, row: &Row, form: usize) -> Option<(String, &String)> {
+        let (worst, patch) = row.worst(&self.names)?;
+        let number = short(self.scene.document.difference, worst);
+        let measure = self.scene.difference_name();
+        let words = match form {
+            0 => format!("worst {measure} {number}, {patch}"),
+            1 => format!("{measure} {number}, {patch}"),
+            _ => format!("{measure} {number}"),
+        };
+        Some((words, patch))
+    }
+
+    /// The longest form of largest differences and of names, in full or short, that fits in the heads of all charts.
+    fn head_form(&self, rows: &[&Row], width: f64) -> (usize, bool) {
+        let forms = (0..3).flat_map(|words| [false, true].map(|is_short| (words, is_short)));
+        let fits = |(form, is_short): &(usize, bool)| {
+            rows.iter().all(|row| {
+                let words = self.worst_words(row, *form).map_or(0.0, |(words, _)| text_width(&words, TextSize::Small));
+                KEY + text_width(row.name(*is_short), TextSize::Body) + words + AIR <= width
+            })
+        };
+        forms.clone().find(fits).unwrap_or((2, true))
+    }
+
     /// A chart's marker and name, and at its right end its largest difference, which stands for that patch.
-    fn chart_head(&mut self, row: &Row, short: &str, at: [f64; 2], width: f64) {
-        let name = if row.source.is_reference { "Reference" } else { &row.source.label };
-        let Some((worst, patch)) = row.worst(&self.names) else { return self.row_head(&row.source, name, at, width) };
-        let number = super::short(self.scene.document.difference, worst);
-        let item = PlotItem::Patch { source: Some(id(&row.source)), patch: patch.clone() };
-        let wide = |words: &str| text_width(words, TextSize::Small) + 8.0;
-        let named = |name: &str| 18.0 + text_width(name, TextSize::Body);
-        let all = [format!("worst {number}, {patch}"), format!("{number} {patch}"), number];
-        let pairs = all.iter().flat_map(|words| [name, short].map(|name| (name, words)));
-        let (name, words) =
-            pairs.into_iter().find(|(name, words)| named(name) + wide(words) <= width).unwrap_or((short, &all[2]));
-        self.row_head(&row.source, name, at, width - wide(words));
-        let tag = self.things.tag(item);
-        self.marks.push(Mark { tag, ..small(words, [at[0] + width, at[1]], Anchor::RIGHT) });
+    fn chart_head(&mut self, row: &Row, (form, is_short): (usize, bool), at: [f64; 2], width: f64) {
+        let worst = self.worst_words(row, form).map(|(words, patch)| (words, patch.clone()));
+        let Some((words, patch)) = worst else {
+            return self.row_head(&row.source, row.name(is_short), at, width);
+        };
+        self.row_head(&row.source, row.name(is_short), at, width - text_width(&words, TextSize::Small) - AIR);
+        let tag = self.things.tag(PlotItem::Patch { source: Some(id(&row.source)), patch });
+        self.marks.push(Mark { tag, ..small(&words, [at[0] + width, at[1]], Anchor::RIGHT) });
     }
 
     /// A sensor's marker and label, no wider than there is room.
     fn row_head(&mut self, source: &ComparedSensor, label: &str, at: [f64; 2], width: f64) {
         let tag = self.things.tag(PlotItem::Sensor(id(source)));
-        let shape = Shape::Points { points: vec![[at[0] + 7.0, at[1]]], marker: source.marker, radius: 5.0 };
-        let mark = Mark::new(tag, source.label.clone(), shape).with_stroke(InkRole::OnSurround, 1.5);
-        let filled = source.marker.has_inside();
-        self.marks.push(if filled { mark.with_fill(InkRole::OnSurround) } else { mark });
-        let fits = |form: &str| text_width(form, TextSize::Body) <= width - 18.0;
-        self.text(tag, &fitted(label, &self.labels, fits), [at[0] + 18.0, at[1]], Anchor::LEFT);
+        self.marks.push(sign(tag, source, [at[0] + 7.0, at[1]], 5.0, InkRole::OnSurround));
+        let fits = |form: &str| text_width(form, TextSize::Body) <= width - KEY;
+        self.text(tag, &cut_in_middle(label, fits), [at[0] + KEY, at[1]], Anchor::LEFT);
     }
 
     /// One swatch: the sensor's color, the reference's part, the notch, a frame that is seen when it is chosen, the
@@ -351,7 +369,8 @@ fn column_head(name: &str, width: f64) -> Vec<String> {
         let rest = lines.split_off(1).join(" ");
         lines.push(rest);
     }
-    lines.iter().map(|line| fitted(line, &[], |form| text_width(form, TextSize::Body) <= width)).collect()
+    let fits = |form: &str| text_width(form, TextSize::Body) <= width;
+    lines.iter().map(|line| cut_in_middle(line, fits).into_owned()).collect()
 }
 
 /// Six for a ColorChecker, else about half again as wide as high.
@@ -359,8 +378,8 @@ fn chart_columns(count: usize) -> usize {
     if count == 24 { 6 } else { ((count as f64 * 1.5).sqrt().ceil() as usize).max(1) }
 }
 
-/// Number of charts side by side, and the size of a swatch with its note: the largest that fits and fills the area, no wider than
-/// twice its height, with numbers above the bars where only so all fit, else the least high, and the charts scroll.
+/// Number of charts side by side, and the size of a swatch with its note: the largest that fits and fills the area, neither
+/// side longer than twice the other, with numbers above the bars where only so all fit, else the least high, and the charts scroll.
 fn chart_cell(charts: usize, columns: usize, lines: usize, size: [f64; 2], least: [f64; 2]) -> (usize, [f64; 2]) {
     let narrow = (least[0] - 4.0 - LEAST_TRACK).max(LEAST_ABOVE.min(least[0]));
     let above = [narrow, LEAST_COLOR + Note::Above.height()];
@@ -385,9 +404,11 @@ fn largest_cell(
         let down = charts.div_ceil(across).max(1);
         let width = (size[0] - MARGIN * (2.0 * across as f64)) / across as f64 / columns as f64 - GAP / 2.0;
         let height = ((size[1] - MARGIN * (1.0 + down as f64)) / down as f64 - HEAD) / lines as f64 - GAP / 2.0;
-        let cell = [width.min(2.0 * height), height.min((1.2 * width + 8.0).max(least[1]))];
+        let cell = [width.min(2.0 * height), height.min((2.0 * width).max(least[1]))];
         let fits = cell[0] >= least[0] && cell[1] >= least[1];
-        if fits && best.is_none_or(|(_, best)| cell[0].min(cell[1]) > best[0].min(best[1])) {
+        // A place that were empty counts as what it takes from the others.
+        let merit = |across: usize, cell: [f64; 2]| cell[0].min(cell[1]) * filled(charts, across);
+        if fits && best.is_none_or(|(other, best)| merit(across, cell) > merit(other, best)) {
             best = Some((across, cell));
         }
     }
