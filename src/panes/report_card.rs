@@ -25,7 +25,7 @@ pub const PANE: Pane = Pane::new(PaneKind::REPORT_CARD, "Report card", show)
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::body(ui, &PANE, rect, context, |ui, context| {
-        let width = (ui.available_width() - UNIT).max(60.0);
+        let width = (ui.available_width() - UNIT).max(140.0);
         widgets::sets::camera(ui, width, context);
     });
     // Less what the scroll bar keeps, and half a number at the end of an axis.

@@ -16,11 +16,11 @@ use crate::scene::uncertainty;
 use crate::theme::UNIT;
 use crate::workspaces::PaneKind;
 
-pub const PANE: Pane = Pane::new(PaneKind::TABLES, "Tables of the model", show).tab("Tables").under_conditions();
+pub const PANE: Pane = Pane::new(PaneKind::TABLES, "Tables", show).under_conditions();
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::body(ui, &PANE, rect, context, |ui, context| {
-        let width = (ui.available_width() - UNIT).max(60.0);
+        let width = (ui.available_width() - UNIT).max(140.0);
         widgets::sets::camera(ui, width, context);
     });
     let Some(camera) = context.view.camera(&context.scene) else {

@@ -274,19 +274,6 @@ fn tables_of_one_model_stand_on_a_page() {
     for name in ["A.M.P.A.S.", "2007 figure", "UPenn 2011", "ΔE*00 from first", "blue at 400 nm"] {
         assert!(window.query_all_by_label_contains(name).next().is_some(), "{name}");
     }
-    // SCRATCH
-    for (size, theme) in [
-        ([900.0, 600.0], egui::Theme::Dark),
-        ([900.0, 600.0], egui::Theme::Light),
-        ([1280.0, 800.0], egui::Theme::Light),
-        ([1280.0, 800.0], egui::Theme::Dark),
-    ] {
-        window.set_size(size.into());
-        window.ctx.set_theme(theme);
-        window.run_steps(8);
-        until(&mut window, "each through its own matrix");
-        window.render().unwrap().save(format!("/tmp/m_tables_{}_{theme:?}.png", size[0])).unwrap();
-    }
 }
 
 #[test]
