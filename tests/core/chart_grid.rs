@@ -70,7 +70,7 @@ fn patches_have_noise_and_shares_of_clipped_pixels() {
         assert_eq!(patch.pixels, 100);
         assert!((patch.mean[0] - 1000.0 - 2.0 * (20.0 * (k % 6) as f64 + 9.5)).abs() < 0.5, "{patch:?}");
         assert!((0.05..0.3).contains(&patch.noise[0]), "{patch:?}");
-        assert!(patch.mean[1] == 1.0 && patch.mean[2].is_nan() && !patch.is_dark(0, 990.0) && patch.is_dark(0, 1e4));
+        assert!(patch.mean[1] == 1.0 && patch.mean[2].is_nan());
         assert_eq!((patch.clipped_share[1], patch.clipped[1]), if k == 0 { (0.01, true) } else { (0.0, false) });
     }
 }

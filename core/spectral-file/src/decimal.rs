@@ -41,6 +41,16 @@ pub(super) fn extent(numbers: impl Iterator<Item = f64>) -> (f64, f64) {
     numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(min, max), number| (min.min(number), max.max(number)))
 }
 
+/// The ends of numbers that rise or fall all the way, from the first to the last one.
+pub(super) fn ends(values: &[f64]) -> Option<(f64, f64)> {
+    let start = values.iter().position(|value| !value.is_nan())?;
+    let end = values.iter().rposition(|value| !value.is_nan())?;
+    let values = &values[start..=end];
+    let ordered = |sign: f64| values.windows(2).all(|pair| sign * (pair[1] - pair[0]) > 0.0);
+    let (a, b) = (*values.first()?, *values.last()?);
+    (a.is_finite() && b.is_finite() && (ordered(1.0) || ordered(-1.0))).then_some((a.min(b), a.max(b)))
+}
+
 /// The exponent of a number that is a power of ten, such as 2 for 100.
 pub(super) fn power_of_ten(number: f64) -> Option<i32> {
     (-15..=15).find(|power| 10_f64.powi(*power) == number)

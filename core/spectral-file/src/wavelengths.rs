@@ -1,7 +1,6 @@
 //! Wavelengths: their unit, their range, their order, and repeats.
 
-use crate::columns::axes::ends;
-use crate::decimal::extent;
+use crate::decimal::{ends, extent};
 use crate::decision::{Certainty, Decided, Dropped, WavelengthUnit};
 use crate::error::ReadError;
 use crate::grid::{Grid, RawCurve};

@@ -17,8 +17,6 @@ pub const FEWEST_PIXELS: usize = 4;
 pub const CLIPPED_SHARE: f64 = 0.005;
 /// Share of the pixels that the trimmed mean leaves out at either end: dust, scratches, defective pixels.
 pub const TRIMMED: f64 = 0.1;
-/// Number of standard deviations below which a mean counts as dark.
-const DARK: f64 = 5.0;
 /// Pixels of a patch from which on not all are taken.
 const MANY_PIXELS: f64 = 40_000.0;
 /// Standard deviation of a Gaussian's 10 % trimmed mean, in that of its mean (Huber and Ronchetti 2009, table 1.1).
@@ -105,11 +103,6 @@ impl PatchMean {
             patch.mean[c] = kept.iter().sum::<f64>() / kept.len() as f64;
         }
         patch
-    }
-
-    /// True for a channel whose mean cannot be told from the value of no light.
-    pub fn is_dark(&self, channel: usize, black: f64) -> bool {
-        self.mean[channel] - black < DARK * self.noise[channel]
     }
 }
 

@@ -2,6 +2,7 @@
 //! and columns in groups, each with wavelengths of its own before its values.
 
 use crate::columns::raw_curve;
+use crate::decimal::ends;
 use crate::decision::{Decided, Decision, WavelengthUnit};
 use crate::error::ReadError;
 use crate::formats::spectra::{self, Sample, Spectrum};
@@ -109,16 +110,6 @@ fn kind(header: &Header, at: usize, index: usize, wavelengths: &[f64], column: &
 pub(super) fn unit(header: &Header, column: usize) -> Option<XUnit> {
     let unit = header.units.get(column).and_then(|unit| header_terms::x_unit(unit));
     unit.or_else(|| header_terms::x_unit(header.name(column)?))
-}
-
-/// The ends of numbers that rise or fall all the way, from the first to the last one.
-pub(crate) fn ends(values: &[f64]) -> Option<(f64, f64)> {
-    let start = values.iter().position(|value| !value.is_nan())?;
-    let end = values.iter().rposition(|value| !value.is_nan())?;
-    let values = &values[start..=end];
-    let ordered = |sign: f64| values.windows(2).all(|pair| sign * (pair[1] - pair[0]) > 0.0);
-    let (a, b) = (*values.first()?, *values.last()?);
-    (a.is_finite() && b.is_finite() && (ordered(1.0) || ordered(-1.0))).then_some((a.min(b), a.max(b)))
 }
 
 /// Returns whether the numbers of a column whose name mentions wavelengths run as those in the first of two columns do: names such as

@@ -2,8 +2,6 @@
 
 use glam::{DMat3, DVec2, DVec3};
 
-use crate::camera::chart_grid::homography;
-
 /// Columns and rows of the chart.
 pub const CHART_SIZE: [usize; 2] = [COLUMNS as usize, ROWS as usize];
 pub(super) const COLUMNS: i32 = 6;
@@ -22,17 +20,6 @@ pub struct FoundChart {
     pub color_residual: f64,
     /// Share of the patches' 96 edges that were found where the grid has them.
     pub edges: f64,
-}
-
-impl FoundChart {
-    /// Outer corners of the outer patches, in the order of the grid's.
-    pub fn patch_corners(&self) -> [[f64; 2]; 4] {
-        let cells = DVec2::new(CHART_SIZE[0] as f64, CHART_SIZE[1] as f64);
-        let inset = (DVec2::ONE - DVec2::from_array(self.fill)) / 2.0 / cells;
-        let picture_from_square = homography(self.corners.map(DVec2::from_array));
-        let at = |corner: DVec2| project(picture_from_square, inset + corner * (DVec2::ONE - 2.0 * inset)).to_array();
-        [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y].map(at)
-    }
 }
 
 /// Corners of the chart's cells [0, 6] × [0, 4] in the picture.

@@ -37,9 +37,10 @@ fn copyright() -> String {
     for (fonts, terms) in [("DejaVu*", "dejavu-fonts"), ("[AT]*", "croscore-fonts")] {
         files.insert(format!("{terms} (licenses/{terms}.txt)"), vec![format!("fonts/{fonts}")]);
     }
-    let mut text = "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/\nUpstream-Name: Chromascope\n\n\
+    let mut text =
+        "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/\nUpstream-Name: Chromascope\n\n\
                     Files: *\nCopyright: 2026 the Chromascope developers\nLicense: Expat or Apache-2.0\n"
-        .to_owned();
+            .to_owned();
     let mut paragraph = |fields: &str, body: &str| {
         text.push_str(fields);
         for line in body.lines().map(str::trim_end) {
@@ -56,7 +57,7 @@ fn copyright() -> String {
         let paths = paths.join("\n assets/");
         paragraph(&format!("\nFiles: assets/{paths}\nCopyright: {holder}\nLicense: data-{}\n", at + 1), body);
     }
-    paragraph("\nLicense: Expat\n", include_str!("../../../LICENSE-MIT"));
+    paragraph("\nLicense: Expat\n", include_str!("../../LICENSE-MIT"));
     paragraph("\nLicense: Apache-2.0\n", "On Debian systems the text is in /usr/share/common-licenses/Apache-2.0.");
     text
 }
