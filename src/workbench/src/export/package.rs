@@ -36,13 +36,12 @@ pub fn package(catalog: &Catalog, ask: &impl Ask) -> Result<Vec<(String, Vec<u8>
                 license["name"] = terms.into();
                 license["path"] = text.trim_end_matches(')').into();
             }
-            let description = std::iter::once(&header.quantity).chain(&header.notes).map(String::as_str);
-            let description = description.collect::<Vec<_>>().join(". ");
+            let plain = |c: char| if c.is_ascii_alphanumeric() || c == '.' { c.to_ascii_lowercase() } else { '-' };
             resources.push(json!({
-                "name": path.replace(['/', '_'], "-"),
+                "name": path.chars().map(plain).collect::<String>(),
                 "path": path,
                 "title": entry.name,
-                "description": description,
+                "description": format!("{}. {}", header.quantity, header.notes.join(" ")).trim_end(),
                 "format": format.ending(),
                 "encoding": "utf-8",
                 "bytes": written.text.len(),
