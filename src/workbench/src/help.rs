@@ -11,8 +11,8 @@ use crate::document::SetKind;
 use markdown::{Block, Inline};
 
 /// Pages in the order of the list: the file name without its ending, which is also the target of links.
-const ORDER: &str = "getting-started window own-spectra lights command-line keyboard model metrics correction accuracy measured \
-                     paper glossary data";
+const ORDER: &str = "getting-started window own-spectra photograph lights command-line keyboard model metrics correction accuracy \
+                     measured paper glossary data";
 
 /// Pages for developers.
 const LAST: [&str; 2] = ["benchmark", "architecture"];
