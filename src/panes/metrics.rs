@@ -75,7 +75,8 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     };
     let item = |row: usize| Some(PlotItem::Sensor(ranked.cameras[row].id.clone()));
     let shown = DataTable::new(PaneKind::METRICS, TABLE, &table).with_items(&item);
-    let shown = shown.with_drawn(Drawn { column: WHISKERS, width: 150.0, draw: &draw });
+    let shown =
+        shown.with_drawn(Drawn { column: WHISKERS, width: (0.22 * body.width()).clamp(90.0, 150.0), draw: &draw });
     let shown = match metrics::first(&context.scene) {
         Some(first) => {
             shown.sorted_by(Sorting { column: first.symbol.to_owned(), descending: first.better == Better::Higher })
