@@ -274,7 +274,7 @@ fn tables_of_one_model_stand_on_a_page() {
     window.state_mut().push(Command::Select(PlotItem::Sensor(id)));
     window.state_mut().push(Command::GoTo(PaneKind::TABLES));
     until(&mut window, "each through its own matrix");
-    for name in ["A.M.P.A.S.", "2007 figure", "UPenn 2011", "ΔE*00 from first", "blue at 400 nm"] {
+    for name in ["A.M.P.A.S.", "2007 figure", "UPenn 2011", "ΔE*00 to first", "blue at 400 nm"] {
         assert!(window.query_all_by_label_contains(name).next().is_some(), "{name}");
     }
 }

@@ -60,10 +60,9 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         });
     }
     if shown(PaneKind::SWATCHES) {
-        let mut words = "swatches: left reference, right camera".to_owned();
-        if context.view.saved.difference_bars {
-            words += &format!("; {}", swatches::bar_scale(&context.scene));
-        }
+        let scale = Some(swatches::bar_scale(&context.scene)).filter(|_| context.view.saved.difference_bars);
+        let parts = ["swatches: left reference, right camera".to_owned()].into_iter().chain(scale);
+        let words = parts.collect::<Vec<_>>().join("; ");
         entry(ui, &words, |ui, rect| swatch(ui, rect, &theme));
     }
     if let Some(words) = caveat(context) {

@@ -108,8 +108,8 @@ fn take(path: &Path, photo: &ChartPhoto, context: &mut PaneContext<'_>) {
         }
         let is_namesake = |shot: &MeasuredShot| Path::new(&shot.file).ends_with(file_name(path));
         let path_of = |shot: &MeasuredShot| {
-            let of_shot = photos.iter().find(|(_, of)| of.is_some() && **of == shot.contents);
-            of_shot.map_or_else(|| PathBuf::from(&shot.file), |(path, _)| path.clone())
+            let photo = photos.iter().find(|(_, of)| of.is_some() && **of == shot.contents);
+            photo.map_or_else(|| PathBuf::from(&shot.file), |(path, _)| path.clone())
         };
         let mut paths: Vec<PathBuf> = measurement.shots.iter().filter(|shot| is_namesake(shot)).map(path_of).collect();
         paths.push(path.to_owned());

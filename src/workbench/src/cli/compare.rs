@@ -139,11 +139,17 @@ struct Row {
 pub(super) fn run(arguments: &CompareArguments, matches: &ArgMatches) -> Result<()> {
     let mut request = Request::new(&arguments.common, matches)?;
     arguments.chart.set(&mut request)?;
+    request.document.pixel = arguments.pixel.pixel()?;
+    let results = Results::default();
+    let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
     let alone = arguments.common.sources.names_no_sensor();
     if alone || arguments.library || arguments.tables_of.is_some() {
         let own = if alone { Vec::new() } else { std::mem::take(&mut request.sources) };
         let others = match &arguments.tables_of {
-            Some(name) => tables_of(&request, name)?,
+            Some(name) => match scene.tables_of(name) {
+                tables if tables.is_empty() => scene.tables_of(&scene.entry(SetKind::Camera, name)?.name),
+                tables => tables,
+            },
             None => request.catalog.of_kind(SetKind::Camera).map(|entry| entry.name.clone()).collect(),
         };
         let others = others.into_iter().map(|name| (SetKind::Camera, name)).collect();
@@ -153,13 +159,10 @@ pub(super) fn run(arguments: &CompareArguments, matches: &ArgMatches) -> Result<
         let then: Vec<_> = then.into_iter().filter(|source| !request.sources.contains(source)).collect();
         request.sources.extend(then);
     }
-    request.document.pixel = arguments.pixel.pixel()?;
     if let Some(wrong) = arguments.temperature.filter(|kelvin| !(1.0..=1e15).contains(kelvin)) {
         return refused("--temperature", format!("{wrong} is not a temperature; use kelvins from 1 to 1e15"));
     }
     arguments.common.out.check(&request)?;
-    let results = Results::default();
-    let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
     let comparison = compared(&scene, &request, arguments)?;
     let text = match arguments.format {
         Form::Table => text(&comparison),
@@ -168,14 +171,6 @@ pub(super) fn run(arguments: &CompareArguments, matches: &ArgMatches) -> Result<
     };
     request.say_caution(&scene)?;
     arguments.common.out.put(&text)
-}
-
-/// Names of all tables of a camera or a model.
-fn tables_of(request: &Request, name: &str) -> Result<Vec<String>> {
-    let results = Results::default();
-    let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
-    let tables = scene.tables_of(name);
-    Ok(if tables.is_empty() { scene.tables_of(&scene.entry(SetKind::Camera, name)?.name) } else { tables })
 }
 
 fn compared(scene: &Scene<'_>, request: &Request, arguments: &CompareArguments) -> Result<Comparison> {

@@ -93,10 +93,10 @@ pub fn ends(of: &ModelTable) -> String {
 
 /// Columns of what distinguishes a table from the first.
 pub const FIELDS: [Field<ModelTable>; 5] = [
-    from_first(["from_first_delta_e2000", "ΔE*00 from first", ""], |of| value(of, |of| of.delta_e)),
-    from_first(["curve_r_percent", "red curve", "%"], |of| value(of, |of| 100.0 * of.curves[0])),
-    from_first(["curve_g_percent", "green curve", "%"], |of| value(of, |of| 100.0 * of.curves[1])),
-    from_first(["curve_b_percent", "blue curve", "%"], |of| value(of, |of| 100.0 * of.curves[2])),
+    from_first(["from_first_delta_e2000", "ΔE*00 to first", ""], |of| value(of, |of| of.delta_e)),
+    from_first(["curve_r_percent", "R curve", "%"], |of| value(of, |of| 100.0 * of.curves[0])),
+    from_first(["curve_g_percent", "G curve", "%"], |of| value(of, |of| 100.0 * of.curves[1])),
+    from_first(["curve_b_percent", "B curve", "%"], |of| value(of, |of| 100.0 * of.curves[2])),
     Field::quantity([ENDS, "ends above 5 %", ""], |of| ends(of).into()),
 ];
 

@@ -36,10 +36,7 @@ pub fn of(plane: DifferencePlane, shift: &Displacements, l: f64, white: Xyz) -> 
         return NONE;
     }
     let gray = xyz_from_lab(Lab { l, a: 0.0, b: 0.0 }, white);
-    let bright = |xy: Xy| {
-        let unit = xy.with_unit_luminance()?.to_vector();
-        Some(Xyz::from_vector(unit * gray.y))
-    };
+    let bright = |xy: Xy| Some(Xyz::from_vector(gray.y * xy.with_unit_luminance()?.to_vector()));
     let shifted = match plane {
         DifferencePlane::Lab => Some(xyz_from_lab(Lab { l, a: x, b: y }, white)),
         DifferencePlane::Xy => white.chromaticity().and_then(|at| bright(Xy { x: at.x + x, y: at.y + y })),

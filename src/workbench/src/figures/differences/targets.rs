@@ -368,17 +368,19 @@ impl<'a> Heads<'a> {
         let hues = all.iter().map(|one| one.shift.as_ref().map_or("", |shift| hue_of(scene, plane, shift))).collect();
         let note = scene.document.exaggeration.note();
         let heads = Self { frame, plane, hues, note, form: Self::FORMS, is_short: true };
-        let fit = |is_short: bool, form: usize| {
+        // A name that is alone in its line may be cut.
+        let fit = |name: fn(&Compared) -> &str, form: usize| {
             all.iter().enumerate().all(|(index, one)| {
                 let words = text_width(&heads.statistics(index, one, form), TextSize::Small);
                 let air = if words > 0.0 { Self::AIR } else { 0.0 };
-                let name = Self::KEY + text_width(Self::name(one, is_short), TextSize::Body);
+                let name = Self::KEY + text_width(name(one), TextSize::Body);
                 let wide = if heads.is_below() { name.max(words) } else { name + air + words };
                 wide <= frame.width()
             })
         };
-        let form = (0..Self::FORMS).find(|form| fit(true, *form)).unwrap_or(Self::FORMS);
-        let is_short = !fit(false, form);
+        let least: fn(&Compared) -> &str = if heads.is_below() { |_| "" } else { |one| &one.source.short };
+        let form = (0..Self::FORMS).find(|form| fit(least, *form)).unwrap_or(Self::FORMS);
+        let is_short = !fit(|one| &one.source.label, form);
         Self { form, is_short, ..heads }
     }
 
@@ -542,13 +544,14 @@ pub(super) fn words(scene: &Scene<'_>, plane: DifferencePlane, size: [f64; 2]) -
     let frame = Frame::of(scene, &all, plane, size);
     let heads = Heads::new(scene, &frame, &all, plane);
     let numbers = if heads.form > 1 && heads.form != 4 { " Numbers: mean length of the arrows." } else { "" };
+    let hue = if heads.form < 5 { ", its hue in words" } else { "" };
     let step = number(frame.step());
     let [x, y, _] = axes(plane).0;
     let by_eq_13 = plane == DifferencePlane::Lab && scene.document.transform == TransformChoice::Paper;
     let eq_13 = if by_eq_13 { " L*a*b* of Eq 13 colors, which is not that of the CIE." } else { "" };
     format!(
         "Arrows: {x}, {y} from the reference, in the patch's color; all on one scale, double tip: beyond the frame. Cross: mean \
-         vector. Dashed ring: 95 % quantile of the lengths. Gray rings: every {step}.{}{numbers}{eq_13}",
+         vector{hue}. Dashed ring: 95 % quantile of the lengths. Gray rings: every {step}.{}{numbers}{eq_13}",
         limit_words(scene, plane)
     )
 }
