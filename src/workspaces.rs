@@ -245,7 +245,7 @@ impl Default for Layout {
             right_width: None,
             page_width: None,
             lower_share: 0.335,
-            right_lower_share: 0.5,
+            right_lower_share: 0.484_375,
             text_share: 0.5,
             curve_share: 0.3,
             left: true,
@@ -405,7 +405,7 @@ pub fn arrange(shown: &Shown<'_>, area: Rect, was_narrow: bool) -> Arrangement {
         Workspace::Compare => compare(&mut made, shown, area, rows, column),
         Workspace::Rank => {
             // As wide as two cameras side by side need, where the list keeps more.
-            let usual = (area.width() / 3.0).max((0.4 * area.width()).min(500.0));
+            let usual = (area.width() / 3.0).max((0.44 * area.width()).min(500.0));
             let page = layout.page_width.unwrap_or(usual).clamp(PAGE, (0.6 * area.width()).max(PAGE));
             cut_right(&mut made, area, page, Splitter::Page, |made, right| {
                 stack(made, right, rows, 0.5, Splitter::Curve);

@@ -23,12 +23,13 @@ use crate::workspaces::PaneKind;
 const REACH: f32 = 10.0;
 const STRIP: f32 = 124.0;
 /// Height of the cameras' differences.
-const MULTIPLES: f32 = 136.0;
+const MULTIPLES: f32 = 151.0;
 /// Below this height of the diagram there is no strip.
 const WITH_STRIP: f32 = 350.0;
-/// Share of a low pane that the cameras' differences take beside the diagram, and its least width.
-const COLUMN: f32 = 0.385;
+/// Share of a low pane that the cameras' differences take beside the diagram, and its least width and height.
+const COLUMN: f32 = 0.42;
 const WITH_COLUMN: f32 = 520.0;
+const LOW: f32 = 130.0;
 const OVERVIEW: Vec2 = Vec2::new(96.0, 104.0);
 
 pub const PANE: Pane = Pane::new(PaneKind::CHROMATICITY, "Chromaticity", show)
@@ -48,7 +49,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let multiples = context.scene.document.overlays.multiples;
     let fits = body.height() >= WITH_STRIP;
     // In a low pane differences stand beside the diagram, which is wider than its data.
-    let beside = multiples && !fits && body.width() >= WITH_COLUMN && body.height() >= MULTIPLES;
+    let beside = multiples && !fits && body.width() >= WITH_COLUMN && body.height() >= LOW;
     let cut = if beside {
         Pos2::new(body.right() - (COLUMN * body.width()).round(), body.bottom())
     } else {

@@ -75,7 +75,8 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     };
     let item = |row: usize| Some(PlotItem::Sensor(ranked.cameras[row].id.clone()));
     let shown = DataTable::new(PaneKind::METRICS, TABLE, &table).with_items(&item);
-    let shown = shown.with_drawn(Drawn { column: WHISKERS, width: 150.0, draw: &draw });
+    let shown =
+        shown.with_drawn(Drawn { column: WHISKERS, width: (0.23 * body.width()).clamp(90.0, 150.0), draw: &draw });
     let shown = match metrics::first(&context.scene) {
         Some(first) => {
             shown.sorted_by(Sorting { column: first.symbol.to_owned(), descending: first.better == Better::Higher })
@@ -155,7 +156,7 @@ fn table(ranked: &Ranked, metric: Option<CameraMetric>, context: &PaneContext<'_
                 color; double click or Enter adds a camera to the comparison.";
     table.insert(
         WHISKERS,
-        Column { name: "interval at 95 %".to_owned(), hint: hint.to_owned(), ..of },
+        Column { name: "95 % interval".to_owned(), hint: hint.to_owned(), ..of },
         ranked.cameras.iter().map(|_| Cell::from("")),
     );
     table

@@ -98,7 +98,10 @@ fn board(ui: &mut Ui, area: Rect, built: &swatches::Built, context: &mut PaneCon
         }
     }
     if let Some(thing) = thing {
-        let lines = chromaticity::brief(&context.scene, &thing);
+        let mut lines = chromaticity::brief(&context.scene, &thing);
+        if context.view.saved.difference_bars && lines.len() > 1 {
+            lines.push(swatches::bar_scale(&context.scene));
+        }
         let pane = area.intersect(ui.clip_rect());
         widgets::read_beside(&shown.response, pane, [RectAlign::LEFT, RectAlign::RIGHT], &lines);
     }
@@ -110,7 +113,7 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
         if let Some(subset) = widgets::choice(ui, context.scene.document.subset) {
             context.push(Action::Scene(SceneAction::SetSubset(subset)));
         }
-        ui.add_space(UNIT);
+        ui.add_space(0.5 * UNIT);
     }
     let rows = swatches::in_rows(context.view.saved.swatch_layout, count);
     let layout = if rows { SwatchLayout::Rows } else { SwatchLayout::Charts };
@@ -118,7 +121,7 @@ fn switches(ui: &mut Ui, context: &mut PaneContext<'_>) {
         context.view.saved.swatch_layout = layout;
         ui.ctx().request_repaint();
     }
-    ui.add_space(UNIT);
+    ui.add_space(0.5 * UNIT);
     if let Some((words, thing)) = swatches::worst(&context.scene)
         && ui.button("Worst").on_hover_text(format!("{words}: click to select it")).clicked()
     {

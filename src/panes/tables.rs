@@ -1,13 +1,17 @@
 //! All tables of one camera model: the library's, recovered ones and the user's, with what they differ by.
 
-use chromascope_core::query::CameraMetric;
+use std::path::{MAIN_SEPARATOR, Path};
+
+use chromascope_core::query::{CameraMetric, Shared};
 use chromascope_figure::{Cell, Table};
 use egui::{Rect, Ui};
 
 use super::context::{Pane, PaneContext};
 use crate::catalog::names::model_of;
+use crate::document::SetKind;
+use crate::document::imported::ImportedSet;
 use crate::figures::metrics::{USUAL, figures};
-use crate::format::sentence;
+use crate::format::{path_end, sentence};
 use crate::panes::widgets;
 use crate::panes::widgets::table::DataTable;
 use crate::scene::metrics::{RankedCameras, Ranking};
@@ -46,12 +50,13 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         value.map_or(Cell::Empty, uncertainty::cell)
     });
     tables::insert(&mut table, rows);
-    let open = names.iter().zip(rows).filter(|(_, row)| !row.ends.is_empty());
-    let open: Vec<String> = open.map(|(name, row)| format!("{}: {}.", distinct(name), tables::ends(row))).collect();
+    let heads = heads(&names, &context.scene.document.own);
+    let open = heads.iter().zip(rows).filter(|(_, row)| !row.ends.is_empty());
+    let open: Vec<String> = open.map(|(name, row)| format!("{name}: {}.", tables::ends(row))).collect();
     let alone = if names.len() > 1 { "" } else { "There is no other table of this model. " };
     let words = format!("{alone}{} {}", tables::COLUMNS, open.join(" "));
     let body = widgets::lines::foot(ui, body, &words, context);
-    DataTable::new(PANE.kind, "Tables of the model", &turned(&table, &names)).show(ui, body, context);
+    DataTable::new(PANE.kind, "Tables of the model", &turned(&table, &heads)).show(ui, body, context);
 }
 
 /// What distinguishes a table from others of its model.
@@ -60,9 +65,21 @@ fn distinct(name: &str) -> &str {
     rest.filter(|rest| !rest.is_empty()).unwrap_or(name)
 }
 
+/// What distinguishes each table; files of one name are told apart by their folders.
+fn heads(names: &[String], own: &[Shared<ImportedSet>]) -> Vec<String> {
+    let is_camera = |set: &ImportedSet| SetKind::of_own(set) == SetKind::Camera;
+    let path = |name: &String| own.iter().find(|set| set.name == *name && is_camera(set))?.path.as_deref();
+    let paths: Vec<&Path> = names.iter().filter_map(path).collect();
+    let head = |name: &String| {
+        let end = path(name).map(|path| path_end(path, &paths));
+        end.filter(|end| end.contains(MAIN_SEPARATOR)).unwrap_or_else(|| distinct(name).to_owned())
+    };
+    names.iter().map(head).collect()
+}
+
 /// The table with a row for each quantity, since a page is narrow; uncertainties are under the pointer. Ends are told in words.
-fn turned(table: &Table, names: &[String]) -> Table {
-    let mut turned = Table::new(std::iter::once("quantity").chain(names.iter().map(|name| distinct(name))));
+fn turned(table: &Table, heads: &[String]) -> Table {
+    let mut turned = Table::new(std::iter::once("quantity").chain(heads.iter().map(String::as_str)));
     turned.columns.iter_mut().for_each(|column| column.decimals = Some(0));
     for (at, column) in table.columns.iter().enumerate().skip(1).filter(|(_, column)| column.key != tables::ENDS) {
         let cell = |row: &Vec<Cell>| {

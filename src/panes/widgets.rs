@@ -36,7 +36,7 @@ use crate::workspaces::{PaneKind, Side, Workspace};
 pub use lines::{focus_rim, labeled, named};
 
 pub const WHAT_YOU_SEE: &str = "A camera's spectral sensitivities differ from the eye's, and so do its colors. \
-                                Chromascope shows how far off each camera is.";
+                                Chromascope shows how far off they are.";
 
 /// Passes after which a control that is not drawn is no longer sought.
 const SOUGHT: u64 = 4;
@@ -72,6 +72,7 @@ pub fn pane(
     let room = Rect::from_min_max(egui::pos2(left, header.top()), header.max - Vec2::new(buttons_width, 0.0));
     let mut left = ui.new_child(UiBuilder::new().id_salt(("switches", pane.kind)).max_rect(room).layout(layout));
     left.set_clip_rect(room.expand(2.0).intersect(ui.clip_rect()));
+    left.spacing_mut().button_padding.x = 1.25 * UNIT;
     switches(&mut left, context);
     let taken = left.min_rect().width();
     if taken > wanted || taken + 2.0 * ROW < wanted {

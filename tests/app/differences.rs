@@ -2,13 +2,14 @@
 
 use chromascope::action::{Action, CompareAction, SceneAction};
 use chromascope::catalog::Catalog;
-use chromascope::document::{Document, Exaggeration, SetKind, TransformChoice};
+use chromascope::document::{Document, Exaggeration, SensorId, SetKind, TransformChoice};
 use chromascope::figures::differences::{self, KIND};
 use chromascope::figures::look::{DifferencePlane, FigureLook};
 use chromascope::figures::{chromaticity, swatches};
 use chromascope::results::Results;
 use chromascope::scene::Scene;
 use chromascope::workspaces::PaneKind;
+use chromascope_core::colorimetry::Xyz;
 use chromascope_core::light::RadiationConstants;
 use chromascope_core::query::{Ask as _, Displacements, LocusDeviationsQuery, LocusQuery, NearestBlackBodyQuery};
 use chromascope_figure::{FigureRoom, Shape, text_area};
@@ -42,6 +43,32 @@ fn on_the_first_screen_each_cameras_mean_displacement_is_ten_pixels_long() {
         with(&Document::colorimetry(), |scene| differences::mean_lengths(scene, &look(DifferencePlane::UvPrime), size));
     assert_eq!(lengths.len(), 3);
     assert!(lengths.iter().all(|length| *length >= 10.0), "{lengths:?} in {size:?}");
+}
+
+/// From the first screen alone: how far off each camera is, toward which hue, and how far the ring that is cut reaches.
+#[test]
+fn each_head_tells_mean_length_and_hue_and_a_cut_ring_its_radius() {
+    for (size, mean) in [([1280.0, 800.0], "mean length 0.0091"), ([900.0, 600.0], "mean 0.0091")] {
+        let harness = open_with(Document::colorimetry(), size, egui::Theme::Dark);
+        let rect = harness.get_by_role_and_label(egui::accesskit::Role::Canvas, "Differences").rect();
+        let size = [f64::from(rect.width()), f64::from(rect.height())];
+        with(&Document::colorimetry(), |scene| {
+            let built = differences::build(scene, &look(DifferencePlane::UvPrime), size).unwrap();
+            let marks = built.panels.iter().flat_map(|panel| &panel.marks);
+            let texts: Vec<&str> = marks
+                .filter_map(|mark| if let Shape::Text { text, .. } = &mark.shape { Some(text.as_str()) } else { None })
+                .collect();
+            let count = |words: &str| texts.iter().filter(|text| text.contains(words)).count();
+            assert_eq!(count(&format!("{mean}; shift toward red")), 1, "{texts:?}");
+            assert_eq!(count("no dominant hue"), 2, "{texts:?}");
+            assert!(count("0.0221") > 0, "{texts:?}");
+            let kodak = SensorId { kind: SetKind::Camera, name: "Kodak DCS200".to_owned() };
+            let words = differences::explained(scene, DifferencePlane::UvPrime, &kodak).join("\n");
+            for part in ["mean length Δu′v′ 0.0091", "lengths, 0.0221", "toward red", "just visible"] {
+                assert!(words.contains(part), "{words}");
+            }
+        });
+    }
 }
 
 #[test]
@@ -87,17 +114,20 @@ fn swatches_of_24_are_large_on_the_first_screen_and_no_words_touch() {
 }
 
 #[test]
-fn charts_of_a_fourth_camera_are_all_in_sight() {
-    let mut document = Document::colorimetry();
+fn charts_of_a_fourth_camera_and_those_of_a_small_window_are_all_in_sight() {
+    let mut fourth = Document::colorimetry();
     let camera = CompareAction::Add(SetKind::Camera, "Sony ILCE-9".to_owned());
-    Action::Compare(camera).apply(&mut document);
-    let harness = open_with(document.clone(), [1280.0, 800.0], egui::Theme::Dark);
-    let rect = harness.get_by_role_and_label(egui::accesskit::Role::Canvas, "Swatches").rect();
-    let size = [f64::from(rect.width()), f64::from(rect.height())];
-    with(&document, |scene| {
-        let built = swatches::build(scene, &FigureLook::default(), size);
-        assert!(built.height <= size[1] + 0.5, "{} of {}", built.height, size[1]);
-    });
+    Action::Compare(camera).apply(&mut fourth);
+    for (document, size) in [(fourth, [1280.0, 800.0]), (Document::colorimetry(), [900.0, 600.0])] {
+        let harness = open_with(document.clone(), size, egui::Theme::Dark);
+        let rect = harness.get_by_role_and_label(egui::accesskit::Role::Canvas, "Swatches").rect();
+        let size = [f64::from(rect.width()), f64::from(rect.height())];
+        with(&document, |scene| {
+            let built = swatches::build(scene, &FigureLook::default(), size);
+            assert!(built.height <= size[1] + 0.5, "{} of {}", built.height, size[1]);
+        });
+        assert!(!says(&harness, "more below"), "in {size:?}");
+    }
 }
 
 #[test]
@@ -118,21 +148,34 @@ fn what_has_no_room_is_named_and_what_is_seen_is_explained() {
     assert!(!says(&window, "thick line: ") && !says(&window, "arrows: "));
 }
 
+/// Unique hues measured otherwise than CIECAM02 was made: their angles in CIELAB (Fairchild, *Color Appearance Models*) and their
+/// wavelengths, near 575, 515 and 475 nm (Kuehni 2004), with the CIE 1931 functions there.
 #[test]
 fn mean_vectors_have_the_hues_of_their_planes() {
+    let d65 = Xyz::new(0.9504, 1.0, 1.0888);
     let of = |plane, to: &[[f64; 2]]| {
         let shift = Displacements::new(to.iter().map(|to| (Some([0.0; 2]), Some(*to))));
-        differences::hue::of(plane, &shift, [0.31, 0.33, 50.0])
+        differences::hue::of(plane, &shift, 50.0, d65)
     };
     let [uv, xy, lab] = [DifferencePlane::UvPrime, DifferencePlane::Xy, DifferencePlane::Lab];
+    let unique = ["toward red", "toward yellow", "toward green", "toward blue"];
+    for (angle, hue) in [24.0_f64, 90.0, 162.0, 246.0].into_iter().zip(unique) {
+        let (sin, cos) = angle.to_radians().sin_cos();
+        for length in [0.1, 2.0, 20.0] {
+            assert_eq!(of(lab, &[[length * cos, length * sin]]), hue, "{angle}° at {length}");
+        }
+    }
+    let white = d65.uv_prime().unwrap();
+    let spectrum = [("toward yellow", 0.8425, 0.9154, 0.0018), ("toward green", 0.0291, 0.6082, 0.1117)];
+    for (hue, x, y, z) in spectrum.into_iter().chain([("toward blue", 0.1421, 0.1126, 1.0419)]) {
+        let far = Xyz::new(x, y, z).uv_prime().unwrap();
+        assert_eq!(of(uv, &[[0.01 * (far.u - white.u), 0.01 * (far.v - white.v)]]), hue);
+    }
     assert_eq!(of(uv, &[[0.01, 0.001]]), "toward red");
-    assert_eq!(of(uv, &[[0.0, -0.01]]), "toward blue");
-    assert_eq!(of(uv, &[[-0.007, 0.005]]), "toward green");
     assert_eq!(of(xy, &[[0.01, 0.0]]), "toward red");
     assert_eq!(of(xy, &[[0.0, 0.01]]), "toward yellow-green");
-    assert_eq!(of(lab, &[[0.0, 1.0]]), "toward yellow");
     assert_eq!(of(lab, &[[1.0, -1.0]]), "toward purple");
-    assert_eq!(of(lab, &[[1.0, 0.0], [-1.0, 0.1]]), "no common hue");
+    assert_eq!(of(lab, &[[1.0, 0.0], [-1.0, 0.1]]), "no dominant hue");
 }
 
 #[test]

@@ -243,6 +243,9 @@ fn pictures_of_one_name_in_two_folders_are_two() {
     }
     window.get_by_label("lamp/DSC_0001.png").click();
     until(&mut window, "Picture: lamp/DSC_0001.png");
+    // Folders of one name are told apart by those around them.
+    window.state_mut().push(Command::OpenPath(in_folder("lamp/day", 16)));
+    holds(&mut window, &["day/DSC_0001.png", "lamp/DSC_0001.png", "lamp/day/DSC_0001.png"]);
 }
 
 /// An OpenEXR is a spectral image by its channels, else a picture.
@@ -271,7 +274,31 @@ fn tables_of_one_model_stand_on_a_page() {
     window.state_mut().push(Command::Select(PlotItem::Sensor(id)));
     window.state_mut().push(Command::GoTo(PaneKind::TABLES));
     until(&mut window, "each through its own matrix");
-    for name in ["A.M.P.A.S.", "2007 figure", "UPenn 2011", "ΔE*00 from first", "blue at 400 nm"] {
+    for name in ["A.M.P.A.S.", "2007 figure", "UPenn 2011", "ΔE*00 to first", "blue at 400 nm"] {
+        assert!(window.query_all_by_label_contains(name).next().is_some(), "{name}");
+    }
+}
+
+#[test]
+fn own_tables_of_one_file_name_are_told_apart_by_their_folders() {
+    let text = std::fs::read_to_string("assets/cameras/nikon_d70_a_m_p_a_s.csv").unwrap();
+    let mut window = window();
+    for name in ["first", "second"] {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("tables").join(name);
+        std::fs::create_dir_all(&folder).unwrap();
+        // Another table, not the same one again.
+        let own = text.replacen("Nikon D70 (A.M.P.A.S.)", "Own", 1) + &format!("# note: {name}\n");
+        std::fs::write(folder.join("own.csv"), own).unwrap();
+        window.state_mut().push(Command::OpenPath(folder.join("own.csv")));
+        window.run_steps(2);
+        window.state().opened.wait();
+        window.run_steps(3);
+    }
+    assert_eq!(cameras(&window), ["Own", "Own (2)"]);
+    window.state_mut().push(Command::Select(PlotItem::Sensor(SensorId { kind: SetKind::Camera, name: "Own".into() })));
+    window.state_mut().push(Command::GoTo(PaneKind::TABLES));
+    until(&mut window, "each through its own matrix");
+    for name in ["first/own.csv", "second/own.csv"] {
         assert!(window.query_all_by_label_contains(name).next().is_some(), "{name}");
     }
 }

@@ -168,7 +168,7 @@ fn each_bar_has_its_number_and_each_column_its_name() {
         let (worst, thing) = swatches::worst(scene).expect("a worst patch");
         assert_eq!(worst, "Worst of 3 cameras: ΔE*00 8.3, Kodak DCS200, cyan");
         assert!(matches!(thing, PlotItem::Patch { source: Some(_), patch } if patch == "cyan"));
-        assert_eq!(swatches::bar_scale(scene), "full bar: ΔE*00 = 5");
+        assert_eq!(swatches::bar_scale(scene), "bar: ΔE*00 from 0 to 5");
     });
 }
 

@@ -15,7 +15,7 @@ const AIR: f64 = 2.0;
 /// Side of the squares by which marks are found, in points.
 const SQUARE: f64 = 24.0;
 /// Lengths of leaders in points: the first, the step, the last.
-const LEADER: [f64; 3] = [18.0, 6.0, 240.0];
+const LEADER: [f64; 3] = [24.0, 6.0, 240.0];
 /// Number of directions that a leader may take.
 const DIRECTIONS: u32 = 72;
 /// Distance of a leader from the point where it starts, in points: outside of its marker.
@@ -76,7 +76,7 @@ pub struct Label {
     pub starts: Vec<[f64; 2]>,
     /// Shorter texts that say the same, tried in turn.
     pub shorter: Vec<String>,
-    /// Space kept from markers in points, beside which it would seem to be theirs.
+    /// Space kept from markers and texts in points, beside which it would seem to be theirs.
     pub clearance: f64,
     /// True if a leader tells better than a position beside its point what it names.
     pub prefers_leader: bool,
@@ -177,7 +177,7 @@ impl Labels {
             self.leaders.push(ends);
             let shape = Shape::Segments { segments: vec![ends.map(|end| self.projection.value(end))] };
             let line = Mark::new(label.tag, format!("{text}, leader"), shape);
-            self.placed[0].push(line.with_stroke(InkRole::Weak, 0.6));
+            self.placed[0].push(line.with_stroke(InkRole::Weak, 0.8));
             // The text stays at its leader, also where the axes are moved.
             let [x, y] = self.projection.at(place.at);
             place.at = self.projection.value([x + place.offset[0], y + place.offset[1]]);
@@ -219,7 +219,7 @@ impl Labels {
             Obstacle::Marker(other) => wide.overlaps(other),
         };
         self.projection.plot.holds(area)
-            && !self.texts.iter().any(|other| area.overlaps(other))
+            && !self.texts.iter().any(|other| wide.overlaps(other))
             && !self.leaders.iter().any(|ends| clip::segment(*area, *ends).is_some())
             && !self.touched(&wide).any(|square| self.squares[square].iter().any(meets))
     }

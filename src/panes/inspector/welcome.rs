@@ -10,7 +10,7 @@ use crate::action::Action;
 use crate::command::{Command, TourMove};
 use crate::document::start::Start;
 use crate::document::{TransformChoice, WhiteBalanceChoice};
-use crate::figures::chromaticity;
+use crate::figures::{chromaticity, swatches};
 use crate::paint;
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::{self, WHAT_YOU_SEE, focus_rim, lines};
@@ -19,7 +19,7 @@ use crate::theme::{ROW, Theme, UNIT};
 use crate::view::tour::Tour;
 use crate::workspaces::PaneKind;
 
-const CARD: Vec2 = Vec2::new(200.0, 76.0);
+const CARD: Vec2 = Vec2::new(200.0, 70.0);
 const KEY: f32 = 26.0;
 /// Color of the arrow in the key.
 const ARROW: [u8; 3] = [196, 78, 88];
@@ -45,6 +45,12 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         let colored = line(InkRole::Sensor(0), Marker::Circle, 2.0);
         let words = "colored: loci and patches of cameras";
         entry(ui, words, |ui, rect| paint::key(ui.painter(), rect, &colored, &theme));
+        if context.scene.document.overlays.loci {
+            let words = format!("ring: blackbody at {:.0} K", context.scene.document.temperature_k);
+            entry(ui, &words, |ui, rect| {
+                ui.painter().circle_stroke(rect.center(), 5.5, egui::Stroke::new(1.5, theme.role(InkRole::Sensor(0))));
+            });
+        }
     }
     if shown(PaneKind::DIFFERENCES) || diagram && context.scene.document.overlays.multiples {
         let words = "arrows: errors of patches; dashed ring: 95 % of them; cross: their mean vector";
@@ -54,8 +60,10 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         });
     }
     if shown(PaneKind::SWATCHES) {
-        let words = "swatches: left reference, right camera";
-        entry(ui, words, |ui, rect| swatch(ui, rect, &theme));
+        let scale = Some(swatches::bar_scale(&context.scene)).filter(|_| context.view.saved.difference_bars);
+        let parts = ["swatches: left reference, right camera".to_owned()].into_iter().chain(scale);
+        let words = parts.collect::<Vec<_>>().join("; ");
+        entry(ui, &words, |ui, rect| swatch(ui, rect, &theme));
     }
     if let Some(words) = caveat(context) {
         ui.add_space(UNIT);
@@ -147,9 +155,9 @@ fn caveat(context: &PaneContext<'_>) -> Option<&'static str> {
     let observers =
         || sources.iter().filter(|source| source.visible && source.kind == crate::document::SetKind::Observer);
     match (&scene.document.transform, &scene.document.white) {
-        (TransformChoice::Paper, _) if observers().any(counts_in_xyz) => Some(
-            "CIE observers are drawn directly, not through Eq 13: their lines differ from the others by construction.",
-        ),
+        (TransformChoice::Paper, _) if observers().any(counts_in_xyz) => {
+            Some("CIE observers are drawn directly, not through Eq 13: they differ by construction.")
+        }
         (_, WhiteBalanceChoice::Unity) => None,
         (TransformChoice::Observer(_), _) => {
             Some("White balance changes camera RGB only; the fitted matrix compensates for it.")

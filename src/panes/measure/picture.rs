@@ -1,6 +1,6 @@
 //! The picture of a chart: corners found or clicked, dragged where they are off.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use chromascope_core::camera::chart_grid::ChartGrid;
 use chromascope_figure::{Axis, Dash, InkRole, Mark, Marker, Panel, Shape, Tag};
@@ -11,7 +11,7 @@ use crate::catalog::file_store::FileState;
 use crate::catalog::recorded_store::{ChartPhoto, RecordedContent};
 use crate::document::PHOTOGRAPHED_CHART;
 use crate::document::measurement::MeasuredShot;
-use crate::format::file_name;
+use crate::format::{file_name, path_end};
 use crate::paint::{self, PlotOptions};
 use crate::panes::context::PaneContext;
 use crate::panes::widgets;
@@ -106,12 +106,17 @@ fn take(path: &Path, photo: &ChartPhoto, context: &mut PaneContext<'_>) {
             (shot.corners, shot.patches) = (corners, patches);
             return;
         }
-        let mut file = file_name(path);
-        for shot in measurement.shots.iter_mut().filter(|shot| Path::new(&shot.file).ends_with(file_name(path))) {
-            let of_shot = photos.iter().find(|(_, of)| of.is_some() && **of == shot.contents);
-            shot.file = of_shot.map_or_else(|| shot.file.clone(), |(path, _)| with_folder(path));
-            file = with_folder(path);
+        let is_namesake = |shot: &MeasuredShot| Path::new(&shot.file).ends_with(file_name(path));
+        let path_of = |shot: &MeasuredShot| {
+            let photo = photos.iter().find(|(_, of)| of.is_some() && **of == shot.contents);
+            photo.map_or_else(|| PathBuf::from(&shot.file), |(path, _)| path.clone())
+        };
+        let mut paths: Vec<PathBuf> = measurement.shots.iter().filter(|shot| is_namesake(shot)).map(path_of).collect();
+        paths.push(path.to_owned());
+        for shot in measurement.shots.iter_mut().filter(|shot| is_namesake(shot)) {
+            shot.file = path_end(&path_of(shot), &paths);
         }
+        let file = path_end(path, &paths);
         let (chart, contents) = (PHOTOGRAPHED_CHART.to_owned(), Some(contents));
         measurement.shots.push(MeasuredShot {
             file,
@@ -124,12 +129,6 @@ fn take(path: &Path, photo: &ChartPhoto, context: &mut PaneContext<'_>) {
         });
     });
     next(context);
-}
-
-/// Name of a file with that of its folder.
-fn with_folder(path: &Path) -> String {
-    let folder = path.parent().map(file_name).filter(|folder| !folder.is_empty());
-    folder.map_or_else(|| file_name(path), |folder| format!("{folder}/{}", file_name(path)))
 }
 
 fn draw(ui: &mut Ui, path: &Path, photo: &ChartPhoto, corners: &[[f64; 2]], context: &mut PaneContext<'_>) {

@@ -8,6 +8,7 @@ use crate::figures::differences::{self, Built};
 use crate::figures::look::{DifferencePlane, FigureLook};
 use crate::paint::{self, PlotOptions};
 use crate::panes::context::PaneContext;
+use crate::plot_item::PlotItem;
 use crate::workspaces::PaneKind;
 
 const REACH: f32 = 8.0;
@@ -17,12 +18,18 @@ pub fn plots(ui: &mut Ui, rect: Rect, plane: DifferencePlane, context: &mut Pane
     let size = [f64::from(rect.width()), f64::from(rect.height())];
     let look = FigureLook { difference_plane: plane, ..context.view.look(PaneKind::DIFFERENCES) };
     match differences::build(&context.scene, &look, size) {
-        Ok(built) => built.panels.iter().for_each(|panel| one(ui, rect, panel, &built, context)),
+        Ok(built) => built.panels.iter().for_each(|panel| one(ui, rect, (plane, panel), &built, context)),
         Err(why) => super::say(ui, rect, &why, context.theme.weak),
     }
 }
 
-fn one(ui: &mut Ui, rect: Rect, panel: &Panel, built: &Built, context: &mut PaneContext<'_>) {
+fn one(
+    ui: &mut Ui,
+    rect: Rect,
+    (plane, panel): (DifferencePlane, &Panel),
+    built: &Built,
+    context: &mut PaneContext<'_>,
+) {
     let corner = |at: [f64; 2]| rect.min + Vec2::new(at[0] as f32, at[1] as f32);
     let place = Rect::from_min_max(corner(panel.area.min), corner(panel.area.max));
     let reference = context.scene.document.reference.clone();
@@ -44,6 +51,10 @@ fn one(ui: &mut Ui, rect: Rect, panel: &Panel, built: &Built, context: &mut Pane
         context.view.click(thing.as_ref());
     }
     if let Some(thing) = thing {
-        super::read_at_pointer(&shown.response, &chromaticity::brief(&context.scene, &thing));
+        let mut lines = chromaticity::brief(&context.scene, &thing);
+        if let PlotItem::Sensor(sensor) = &thing {
+            lines.extend(differences::explained(&context.scene, plane, sensor));
+        }
+        super::read_at_pointer(&shown.response, &lines);
     }
 }

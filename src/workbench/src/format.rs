@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 use std::fmt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 pub use chromascope_figure::number::{aligned, behind, decimals_by, fixed, number, rounded, signed, whole};
 use spectral_file::{Dropped, DroppedRow};
@@ -29,6 +29,14 @@ pub fn sentence(words: &str) -> String {
 /// The last part of a path; the whole path if it has none.
 pub fn file_name(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
+/// The shortest end of a path that none of the others has, folders before its name.
+pub fn path_end(path: &Path, others: &[impl AsRef<Path>]) -> String {
+    let shared = |other: &Path| path.iter().rev().zip(other.iter().rev()).take_while(|(a, b)| a == b).count();
+    let shared = others.iter().map(AsRef::as_ref).filter(|other| *other != path).map(shared).max().unwrap_or(0);
+    let end: PathBuf = path.iter().skip(path.iter().count().saturating_sub(shared + 1)).collect();
+    end.to_string_lossy().into_owned()
 }
 
 /// A path for people, on one line.

@@ -20,10 +20,10 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use chromascope_core::camera::{RenderingError, WhiteBalanceTarget};
-use chromascope_core::colorimetry::UvPrime;
 use chromascope_core::colorimetry::diagram::SpectralPoint;
 use chromascope_core::colorimetry::lab::xyz_from_lab;
 use chromascope_core::colorimetry::rgb::encode_srgb;
+use chromascope_core::colorimetry::{UvPrime, Xyz};
 use chromascope_core::correction::aces::IdtError;
 use chromascope_core::light::{DaylightError, RadiationConstants, daylight};
 use chromascope_core::patch_set::{PAPER_FIVE, PatchSet};
@@ -331,6 +331,12 @@ impl<'a> Scene<'a> {
             white: self.white()?,
             transform: self.transform()?,
         })
+    }
+
+    /// Adopted white of the reference's L\*a\*b\*.
+    pub fn adopted_white(&self) -> Result<Xyz> {
+        let name = &self.document.reference;
+        Ok(self.rendered(&self.rendering_of(SetKind::Observer, name)?, name)?.lab_white)
     }
 
     pub fn locus_temperatures() -> Result<Temperatures> {

@@ -8,7 +8,7 @@ use chromascope_core::query::metrics::{Better, rank_ranges};
 use chromascope_core::query::{Ask as _, CameraMetric, MetricUncertainty, MetricValue, Shared, WhyNot};
 use chromascope_core::spectral::Correlation;
 use chromascope_figure::number::significant;
-use chromascope_figure::{Cell, Column, Table};
+use chromascope_figure::{Cell, Column, Field, Table};
 use clap::builder::PossibleValuesParser;
 use clap::{ArgMatches, Args};
 use serde_json::{Map, Value, json};
@@ -139,31 +139,30 @@ struct Row {
 pub(super) fn run(arguments: &CompareArguments, matches: &ArgMatches) -> Result<()> {
     let mut request = Request::new(&arguments.common, matches)?;
     arguments.chart.set(&mut request)?;
-    let alone = arguments.common.sources.names_no_sensor();
-    if let Some(name) = &arguments.tables_of {
-        let results = Results::default();
-        let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
-        let mut tables = scene.tables_of(name);
-        if tables.is_empty() {
-            tables = scene.tables_of(&scene.entry(SetKind::Camera, name)?.name);
-        }
-        let own = if alone { Vec::new() } else { std::mem::take(&mut request.sources) };
-        request.sources = tables.into_iter().map(|name| (SetKind::Camera, name)).collect();
-        let others = own.into_iter().filter(|own| !request.sources.contains(own)).collect::<Vec<_>>();
-        request.sources.extend(others);
-    } else if alone || arguments.library {
-        let own = if alone { Vec::new() } else { std::mem::take(&mut request.sources) };
-        let built_in = request.catalog.of_kind(SetKind::Camera).map(|entry| (SetKind::Camera, entry.name.clone()));
-        let others = built_in.filter(|source| !own.contains(source)).collect::<Vec<_>>();
-        request.sources = own.into_iter().chain(others).collect();
-    }
     request.document.pixel = arguments.pixel.pixel()?;
+    let results = Results::default();
+    let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
+    let alone = arguments.common.sources.names_no_sensor();
+    if alone || arguments.library || arguments.tables_of.is_some() {
+        let own = if alone { Vec::new() } else { std::mem::take(&mut request.sources) };
+        let others = match &arguments.tables_of {
+            Some(name) => match scene.tables_of(name) {
+                tables if tables.is_empty() => scene.tables_of(&scene.entry(SetKind::Camera, name)?.name),
+                tables => tables,
+            },
+            None => request.catalog.of_kind(SetKind::Camera).map(|entry| entry.name.clone()).collect(),
+        };
+        let others = others.into_iter().map(|name| (SetKind::Camera, name)).collect();
+        // Tables are compared with the model's first.
+        let [first, then] = if arguments.tables_of.is_some() { [others, own] } else { [own, others] };
+        request.sources = first;
+        let then: Vec<_> = then.into_iter().filter(|source| !request.sources.contains(source)).collect();
+        request.sources.extend(then);
+    }
     if let Some(wrong) = arguments.temperature.filter(|kelvin| !(1.0..=1e15).contains(kelvin)) {
         return refused("--temperature", format!("{wrong} is not a temperature; use kelvins from 1 to 1e15"));
     }
     arguments.common.out.check(&request)?;
-    let results = Results::default();
-    let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
     let comparison = compared(&scene, &request, arguments)?;
     let text = match arguments.format {
         Form::Table => text(&comparison),
@@ -368,14 +367,13 @@ fn json(comparison: &Comparison) -> String {
     };
     let table = |at: usize| {
         let of = comparison.tables.as_ref().and_then(|(_, tables)| tables.get(at))?;
-        let difference = of.difference.as_ref().and_then(|difference| difference.as_ref().ok());
+        let key = |field: &Field<ModelTable>| field.key.trim_start_matches("from_first_").to_owned();
+        let numbers = tables::FIELDS.iter().map(|field| (key(field), json!((field.cell)(of).number())));
+        let mut told: Map<String, Value> = numbers.collect();
         let end =
             |(c, nm, share): &(usize, f64, f64)| json!({ "channel": c, "wavelength_nm": nm, "share_of_peak": share });
-        Some(json!({
-            "delta_e2000": difference.map(|of| of.delta_e),
-            "curves": difference.map(|of| of.curves),
-            "open_ends": of.ends.iter().map(end).collect::<Vec<_>>(),
-        }))
+        told.insert(tables::ENDS.to_owned(), of.ends.iter().map(end).collect());
+        Some(Value::Object(told))
     };
     let camera = |(at, row): (usize, &Row)| {
         let values = comparison.metrics.iter().zip(&row.values).zip(&row.ranks).map(|((metric, value), rank)| {

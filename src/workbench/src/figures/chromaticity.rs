@@ -167,7 +167,7 @@ const SMALLER: f64 = 0.5;
 pub fn thumbnail(scene: &Scene<'_>, size: [f64; 2]) -> Panel {
     let mut panel = build(scene, &FigureLook::default(), size).panel;
     (panel.x, panel.y) = (Axis::hidden(panel.x.range), Axis::hidden(panel.y.range));
-    panel.marks.retain(|mark| !matches!(mark.shape, Shape::Text { .. }));
+    panel.marks.retain(|mark| !matches!(mark.shape, Shape::Text { .. }) && !mark.name.ends_with(", leader"));
     for mark in &mut panel.marks {
         mark.halo = None;
         if let Some(stroke) = &mut mark.stroke {

@@ -14,6 +14,7 @@ use super::look::{DifferencePlane, FigureLook};
 use crate::document::SetKind;
 use crate::plot_item::PickIndex;
 use crate::scene::{ComparedSensor, Scene};
+pub use targets::explained;
 
 /// The plots with the items of their marks.
 #[derive(Clone, Debug)]

@@ -78,7 +78,7 @@ pub fn build(scene: &Scene<'_>, look: &FigureLook, size: [f64; 2]) -> Built {
 
 /// Length of a bar in words, and the factor on the colors' differences where there is one.
 pub fn bar_scale(scene: &Scene<'_>) -> String {
-    let scale = format!("full bar: {} = {}", scene.difference_name(), number(scene.document.difference.full_scale));
+    let scale = format!("bar: {} from 0 to {}", scene.difference_name(), number(scene.document.difference.full_scale));
     scene.document.exaggeration.note().map_or(scale.clone(), |note| format!("{note}; {scale}"))
 }
 

@@ -4,7 +4,7 @@ use chromascope_core::patch_set::PatchSet;
 use chromascope_core::query::{Ask, Query, Shared};
 use chromascope_core::recovery::{TableDifference, open_ends};
 use chromascope_core::spectral::{GridSpectrum, Sensor};
-use chromascope_figure::{Cell, Column, Table};
+use chromascope_figure::{Cell, Column, Field, Table};
 
 use super::metrics::SetPlace;
 use super::recorded::CHANNELS;
@@ -14,7 +14,7 @@ use crate::catalog::names::{folded, model_of};
 use crate::document::{CIE_1931, SetKind};
 use crate::format::fixed;
 
-/// Meaning of the columns of [`insert`].
+/// Meaning of [`FIELDS`].
 pub const COLUMNS: &str = "Mean ΔE*00 of the chart's patches between this table and the first, each through its own matrix; RMS of the \
     difference of the curves relative to the first's, at the scale that fits best; ends of a curve above 5 % of its peak, beyond which \
     it is unknown.";
@@ -91,24 +91,31 @@ pub fn ends(of: &ModelTable) -> String {
     of.ends.iter().map(end).collect::<Vec<_>>().join(", ")
 }
 
-/// Inserts the differences and open ends of each row's table behind its name.
-pub fn insert(table: &mut Table, rows: &[ModelTable]) {
-    let value = |of: &ModelTable, value: &dyn Fn(&TableDifference) -> f64| match &of.difference {
+/// Columns of what distinguishes a table from the first.
+pub const FIELDS: [Field<ModelTable>; 5] = [
+    from_first(["from_first_delta_e2000", "ΔE*00 to first", ""], |of| value(of, |of| of.delta_e)),
+    from_first(["curve_r_percent", "R curve", "%"], |of| value(of, |of| 100.0 * of.curves[0])),
+    from_first(["curve_g_percent", "G curve", "%"], |of| value(of, |of| 100.0 * of.curves[1])),
+    from_first(["curve_b_percent", "B curve", "%"], |of| value(of, |of| 100.0 * of.curves[2])),
+    Field::quantity([ENDS, "ends above 5 %", ""], |of| ends(of).into()),
+];
+
+const fn from_first(names: [&'static str; 3], cell: fn(&ModelTable) -> Cell) -> Field<ModelTable> {
+    Field { decimals: Some(2), ..Field::quantity(names, cell) }
+}
+
+fn value(of: &ModelTable, value: fn(&TableDifference) -> f64) -> Cell {
+    match &of.difference {
         None => Cell::Empty,
         Some(Err(why)) => Cell::Missing(why.clone()),
         Some(Ok(difference)) => value(difference).into(),
-    };
-    let column = |key: &str, name: &str, unit: &str| Column {
-        decimals: Some(2),
-        hint: COLUMNS.to_owned(),
-        ..Column::quantity(key, name, unit)
-    };
-    let delta_e = rows.iter().map(|row| value(row, &|of| of.delta_e));
-    table.insert(1, column("from_first_delta_e2000", "ΔE*00 from first", ""), delta_e);
-    for c in 0..3 {
-        let key = format!("curve_{}_percent", ["r", "g", "b"][c]);
-        let curves = rows.iter().map(|row| value(row, &|of| 100.0 * of.curves[c]));
-        table.insert(2 + c, column(&key, &format!("{} curve", CHANNELS[c]), "%"), curves);
     }
-    table.insert(5, column(ENDS, "ends above 5 %", ""), rows.iter().map(|row| ends(row).into()));
+}
+
+/// Inserts these columns behind the name of each row's table.
+pub fn insert(table: &mut Table, rows: &[ModelTable]) {
+    for (at, field) in FIELDS.iter().enumerate() {
+        let column = Column { hint: COLUMNS.to_owned(), ..field.into() };
+        table.insert(1 + at, column, rows.iter().map(field.cell));
+    }
 }

@@ -162,9 +162,17 @@ pub(super) fn placed(mut all: Vec<(Rank, Label)>, panel: &Panel) -> Vec<Mark> {
     let ends: Vec<[f64; 2]> = sensors.filter_map(|(_, label)| end(label)).collect();
     for (rank, label) in &mut all {
         let Some([x, y]) = end(label).filter(|_| *rank == Rank::Sensor) else { continue };
-        let is_crowded = ends.iter().filter(|end| (end[0] - x).hypot(end[1] - y) < CROWDED).count() > 1;
-        // The reference's line is thick enough to be told by itself.
-        if is_crowded && label.ink.role != InkRole::Reference {
+        // The reference's line is thick enough to be told by itself, but not where its name would be below another's end.
+        let is_reference = label.ink.role == InkRole::Reference;
+        let least = if is_reference { 4.0 * CROWDED } else { CROWDED };
+        if ends.iter().filter(|end| (end[0] - x).hypot(end[1] - y) < least).count() < 2 {
+            continue;
+        }
+        if is_reference {
+            let end = label.starts.last().copied();
+            label.places.retain(|place| Some(place.at) != end);
+            label.clearance = 2.0 * CLEARANCE;
+        } else {
             // Leaders from ends that lie close together could be each other's.
             label.starts.truncate(1);
             label.prefers_leader = true;

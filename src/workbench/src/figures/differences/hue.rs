@@ -1,52 +1,52 @@
 //! Hue in words that a mean of differences points to.
+//!
+//! One way for all planes: a gray of the patches' mean L\* is shifted by the mean vector from the adopted white, and its hue
+//! angle by CIECAM02 under that white is named. An approximation where the patches' mean is far from gray, since lines of equal
+//! hue are curved, and for observers other than CIE 1931 2°, of which CIECAM02 is not.
 
-use chromascope_core::colorimetry::{UvPrime, Xy};
+use chromascope_core::colorimetry::ciecam02::Ciecam02;
+use chromascope_core::colorimetry::lab::xyz_from_lab;
+use chromascope_core::colorimetry::{Lab, UvPrime, Xy, Xyz};
 use chromascope_core::query::Displacements;
 
 use crate::figures::look::DifferencePlane;
 
-const NAMES: [&str; 8] = [
-    "toward red",
-    "toward orange",
-    "toward yellow",
-    "toward yellow-green",
-    "toward green",
-    "toward blue-green",
-    "toward blue",
-    "toward purple",
+/// Hue angles of CIECAM02 in degrees: unique red, yellow, green and blue (CIE 159:2004), and the middles between them.
+const HUES: [(&str, f64); 8] = [
+    ("toward red", 20.14),
+    ("toward orange", 55.07),
+    ("toward yellow", 90.0),
+    ("toward yellow-green", 127.125),
+    ("toward green", 164.25),
+    ("toward blue-green", 200.89),
+    ("toward blue", 237.53),
+    ("toward purple", 308.835),
 ];
 
-const NONE: &str = "no common hue";
-
-/// Angles in degrees of unique red, yellow, green and blue from white: in u′v′ of the wavelengths 577, 515 and 475 nm and of the
-/// red end, in a*b* as in CIECAM02 (CIE 159:2004). Between two of them lies the hue that is both.
-const UNIQUE_UV: [f64; 4] = [10.0, 61.0, 149.0, 253.0];
-const UNIQUE_AB: [f64; 4] = [20.0, 90.0, 164.0, 238.0];
+/// In place of a hue.
+pub const NONE: &str = "no dominant hue";
 
 /// Share of the mean length below which the mean vector has no direction worth a name.
 const LEAST: f64 = 1.0 / 3.0;
 
-/// Hue that the mean vector points to from the patches' mean.
-pub fn of(plane: DifferencePlane, shift: &Displacements, [a, b, _]: [f64; 3]) -> &'static str {
+/// Hue of the mean vector, from gray of an L\* under an adopted white.
+pub fn of(plane: DifferencePlane, shift: &Displacements, l: f64, white: Xyz) -> &'static str {
     let [x, y] = shift.mean;
     if x.hypot(y) < LEAST * shift.mean_length || shift.mean_length == 0.0 {
         return NONE;
     }
-    let uv = |x: f64, y: f64| Xy { x, y }.uv_prime();
-    let ([x, y], unique) = match plane {
-        DifferencePlane::Xy => match uv(a, b).zip(uv(a + x, b + y)) {
-            Some((UvPrime { u, v }, to)) => ([to.u - u, to.v - v], UNIQUE_UV),
-            None => return NONE,
-        },
-        DifferencePlane::Lab => ([x, y], UNIQUE_AB),
-        DifferencePlane::UvPrime | DifferencePlane::Loci => ([x, y], UNIQUE_UV),
+    let gray = xyz_from_lab(Lab { l, a: 0.0, b: 0.0 }, white);
+    let bright = |xy: Xy| Some(Xyz::from_vector(gray.y * xy.with_unit_luminance()?.to_vector()));
+    let shifted = match plane {
+        DifferencePlane::Lab => Some(xyz_from_lab(Lab { l, a: x, b: y }, white)),
+        DifferencePlane::Xy => white.chromaticity().and_then(|at| bright(Xy { x: at.x + x, y: at.y + y })),
+        DifferencePlane::UvPrime | DifferencePlane::Loci => {
+            white.uv_prime().and_then(|at| bright(UvPrime { u: at.u + x, v: at.v + y }.xy()?))
+        }
     };
-    let angle = y.atan2(x).to_degrees();
-    let center = |index: usize| {
-        let (from, to) = (unique[index / 2], unique.get(index / 2 + 1).copied().unwrap_or(unique[0] + 360.0));
-        if index.is_multiple_of(2) { from } else { 0.5 * (from + to) }
-    };
-    let distance = |index: &usize| ((angle - center(*index)).rem_euclid(360.0) - 180.0).abs();
-    // Farthest from the opposite direction.
-    (0..8).max_by(|a, b| distance(a).total_cmp(&distance(b))).map_or(NONE, |index| NAMES[index])
+    let seen = shifted.and_then(|color| Ciecam02::new(white)?.ucs(color));
+    let angle = |hue: f64, of: f64| ((hue - of + 180.0).rem_euclid(360.0) - 180.0).abs();
+    let nearest =
+        seen.and_then(|seen| HUES.iter().min_by(|a, b| angle(seen.hue, a.1).total_cmp(&angle(seen.hue, b.1))));
+    nearest.map_or(NONE, |(name, _)| name)
 }

@@ -6,7 +6,7 @@ use chromascope_core::colorimetry::{Lab, Metric, UvPrime, Xy};
 use chromascope_core::query::displacement::{JUST_VISIBLE_UV_PRIME, unit_contour};
 use chromascope_core::query::{Displacements, PatchColor};
 use chromascope_figure::{
-    Anchor, Dash, Field, Ink, InkRole, Label, Labels, Mark, Marker, Panel, Place, Rect, Shape, Table, TextSize,
+    Anchor, Dash, Field, Ink, InkRole, Label, Labels, Mark, Marker, Panel, Place, Rect, Shape, Table, Tag, TextSize,
     clip_segment, text_area, text_width, wrapped,
 };
 
@@ -15,7 +15,7 @@ use crate::document::{SetKind, TransformChoice};
 use crate::figures::chromaticity::sign;
 use crate::figures::look::{DifferencePlane, FigureLook};
 use crate::format::{cut_in_middle, fixed, number};
-use crate::plot_item::{PickIndex, PlotItem};
+use crate::plot_item::{PickIndex, PlotItem, SensorId};
 use crate::scene::Scene;
 
 /// Height of a camera's head, and of the line of its statistics.
@@ -31,6 +31,8 @@ const RINGS: f64 = 20.0;
 /// Points of a closed line.
 const CORNERS: u32 = 96;
 
+/// Height of a cell from which on statistics stand below the name.
+const TALL: f64 = 120.0;
 /// Width of a cell in which numbers and hue have no room beside a short name.
 const NARROW: f64 = 215.0;
 /// Least mean length of arrows that the rings of all cameras may take by their room, in points.
@@ -78,7 +80,7 @@ impl Frame {
         let frame = |columns: usize| {
             let rows = count.max(1).div_ceil(columns);
             let [width, height] = [size[0] - GAP, (size[1] - GAP) / rows as f64];
-            let head = if height - GAP > 180.0 { HEAD + LINE } else { HEAD };
+            let head = if height - GAP > TALL { HEAD + LINE } else { HEAD };
             let cell = |index: usize| {
                 let (row, column) = (index / columns, index % columns);
                 // Fewer in the last row fill it.
@@ -137,7 +139,13 @@ impl Target<'_> {
     }
 
     /// A closed line around the reference, where it lies in the plot.
-    fn outline(&mut self, name: &str, points: &[[f64; 2]], ink: impl Into<Ink>, (width, dash): (f64, Dash)) {
+    fn outline(
+        &mut self,
+        (tag, name): (Tag, &str),
+        points: &[[f64; 2]],
+        ink: impl Into<Ink>,
+        (width, dash): (f64, Dash),
+    ) {
         let placed: Vec<[f64; 2]> = points.iter().chain(points.first()).map(|point| self.at(*point)).collect();
         let segments = placed.windows(2).filter_map(|ends| clip_segment(self.area, [ends[0], ends[1]]));
         let mut line: Vec<[f64; 2]> = Vec::new();
@@ -147,7 +155,7 @@ impl Target<'_> {
             }
             line.push(b);
         }
-        let mark = Mark::new(PickIndex::NONE, name, Shape::Line { points: line, closed: false });
+        let mark = Mark::new(tag, name, Shape::Line { points: line, closed: false });
         self.marks.push(mark.with_stroke(ink, width).with_dash(dash));
     }
 
@@ -224,6 +232,34 @@ fn middle(scene: &Scene<'_>, plane: DifferencePlane) -> [f64; 3] {
     [0, 1, 2].map(|axis| known.iter().map(|color| color[axis]).sum::<f64>() / known.len().max(1) as f64)
 }
 
+/// Hue that a mean vector points to.
+fn hue_of(scene: &Scene<'_>, plane: DifferencePlane, shift: &Displacements) -> &'static str {
+    let [.., l] = middle(scene, plane);
+    scene.adopted_white().map_or("", |white| hue::of(plane, shift, l, white))
+}
+
+/// Mean and 95 % quantile of the lengths, and the length of the mean vector.
+fn lengths(shift: &Displacements, decimals: usize) -> [String; 3] {
+    [shift.mean_length, shift.p95, shift.mean[0].hypot(shift.mean[1])].map(|length| fixed(length, decimals))
+}
+
+/// Statistics of a sensor's arrows in lines, each with what shows it; none without arrows.
+pub fn explained(scene: &Scene<'_>, plane: DifferencePlane, sensor: &SensorId) -> Vec<String> {
+    let Ok((_, all)) = compared(scene, plane) else { return Vec::new() };
+    let shift = all.iter().find(|one| id(&one.source) == *sensor).map(|one| &one.shift);
+    let Some(Ok(shift)) = shift else { return Vec::new() };
+    let ([.., delta], decimals) = axes(plane);
+    let [mean, p95, vector] = lengths(shift, decimals);
+    let limit = limit_words(scene, plane);
+    let lines = [
+        format!("Arrows: mean length {delta} {mean}"),
+        format!("Dashed ring: 95 % quantile of the lengths, {p95}"),
+        format!("Cross: mean vector, {vector}, {}", hue_of(scene, plane, shift)),
+        limit.trim().trim_end_matches('.').to_owned(),
+    ];
+    lines.into_iter().filter(|line| !line.is_empty()).collect()
+}
+
 /// Outline of differences that are just visible, at the mean of the reference's patches; none where nothing says so.
 fn limit(scene: &Scene<'_>, plane: DifferencePlane) -> Vec<[f64; 2]> {
     let [a, b, l] = middle(scene, plane);
@@ -283,21 +319,18 @@ pub(super) fn build(
             }
             Ok(shift) => {
                 let ink = one.source.role;
-                target.outline("just visible", &limit, InkRole::Weak, (0.8, Dash::Solid));
+                target.outline((PickIndex::NONE, "just visible"), &limit, InkRole::Weak, (0.8, Dash::Solid));
                 if index == 0 && heads.is_below() && !limit.is_empty() {
                     let words = if plane == DifferencePlane::Lab { "ΔE*00 = 1" } else { "just visible" };
                     let starts = limit.iter().step_by(12).map(|point| target.at(*point)).collect();
                     texts.push(Label { starts, ..Label::new(words, InkRole::Weak, Vec::new()) });
                 }
-                target.ring(shift.p95, ink, axes(plane).1, &mut texts);
+                let tag = things.tag(PlotItem::Sensor(id(&one.source)));
+                target.ring((tag, shift.p95), ink, axes(plane).1, &mut texts);
                 let patches = Patches { one, names: &names, reference: &reference, look, decimals: axes(plane).1 };
                 patches.add(&mut target, shift, &mut things, &mut texts);
                 let cross = Shape::Points { points: vec![target.at(shift.mean)], marker: Marker::Cross, radius: 4.5 };
-                let cross = Mark::new(
-                    things.tag(PlotItem::Sensor(id(&one.source))),
-                    format!("{}, mean", one.source.label),
-                    cross,
-                );
+                let cross = Mark::new(tag, format!("{}, mean", one.source.label), cross);
                 if area.contains(target.at(shift.mean)) {
                     target.marks.push(cross.with_stroke(ink, 2.0).with_halo(InkRole::Plot));
                 }
@@ -328,25 +361,26 @@ struct Heads<'a> {
 impl<'a> Heads<'a> {
     /// Room of the marker before the name, and between name and statistics.
     const KEY: f64 = 17.0;
-    const AIR: f64 = 6.0;
-    const FORMS: usize = 5;
+    const AIR: f64 = 5.0;
+    const FORMS: usize = 6;
 
     fn new(scene: &Scene<'_>, frame: &'a Frame, all: &[Compared], plane: DifferencePlane) -> Self {
-        let middle = middle(scene, plane);
-        let hue = |one: &Compared| one.shift.as_ref().map_or("", |shift| hue::of(plane, shift, middle));
-        let (hues, note) = (all.iter().map(hue).collect(), scene.document.exaggeration.note());
+        let hues = all.iter().map(|one| one.shift.as_ref().map_or("", |shift| hue_of(scene, plane, shift))).collect();
+        let note = scene.document.exaggeration.note();
         let heads = Self { frame, plane, hues, note, form: Self::FORMS, is_short: true };
-        let fit = |is_short: bool, form: usize| {
+        // A name that is alone in its line may be cut.
+        let fit = |name: fn(&Compared) -> &str, form: usize| {
             all.iter().enumerate().all(|(index, one)| {
                 let words = text_width(&heads.statistics(index, one, form), TextSize::Small);
                 let air = if words > 0.0 { Self::AIR } else { 0.0 };
-                let name = Self::KEY + text_width(Self::name(one, is_short), TextSize::Body);
+                let name = Self::KEY + text_width(name(one), TextSize::Body);
                 let wide = if heads.is_below() { name.max(words) } else { name + air + words };
                 wide <= frame.width()
             })
         };
-        let form = (0..Self::FORMS).find(|form| fit(true, *form)).unwrap_or(Self::FORMS);
-        let is_short = !fit(false, form);
+        let least: fn(&Compared) -> &str = if heads.is_below() { |_| "" } else { |one| &one.source.short };
+        let form = (0..Self::FORMS).find(|form| fit(least, *form)).unwrap_or(Self::FORMS);
+        let is_short = !fit(|one| &one.source.label, form);
         Self { form, is_short, ..heads }
     }
 
@@ -362,15 +396,16 @@ impl<'a> Heads<'a> {
     fn statistics(&self, index: usize, one: &Compared, form: usize) -> String {
         let Ok(shift) = &one.shift else { return String::new() };
         let ([.., delta], decimals) = axes(self.plane);
-        let [mean, p95, cross] =
-            [shift.mean_length, shift.p95, shift.mean[0].hypot(shift.mean[1])].map(|length| fixed(length, decimals));
+        let [mean, p95, vector] = lengths(shift, decimals);
         let hue = self.hues[index];
+        let to = if hue == hue::NONE { hue.to_owned() } else { format!("shift {hue}") };
         let words = match form {
-            0 => format!("mean {delta} {mean}, 95 % {p95}; cross {cross}, {hue}"),
-            1 => format!("mean {delta} {mean}; cross: {hue}"),
-            2 => format!("mean Δ {mean}; × {hue}"),
-            3 => format!("Δ {mean}; × {hue}"),
-            4 => mean,
+            0 => format!("mean length {delta} {mean}, 95 % {p95}; mean vector {vector}, {hue}"),
+            1 => format!("mean length {delta} {mean}; {to}"),
+            2 => format!("mean length {mean}; {to}"),
+            3 => format!("mean {mean}; {to}"),
+            4 => hue.to_owned(),
+            5 => mean,
             _ => String::new(),
         };
         let note = self.note.as_deref().unwrap_or_default();
@@ -383,6 +418,9 @@ impl<'a> Heads<'a> {
         let (source, corner, width) = (&one.source, self.frame.cells[index].min, self.frame.cells[index].width());
         let tag = things.tag(PlotItem::Sensor(id(source)));
         let middle = corner[1] + 0.5 * HEAD;
+        // All of it is found by the pointer.
+        let head = Shape::Rect { min: corner, max: [corner[0] + width, corner[1] + self.frame.head] };
+        panel.marks.push(Mark::new(tag, &source.label, head));
         panel.marks.push(sign(tag, source, [corner[0] + 6.0, middle], 4.5, source.role));
         let words = self.statistics(index, one, self.form);
         let beside = text_width(&words, TextSize::Small) + Self::AIR;
@@ -402,12 +440,19 @@ impl<'a> Heads<'a> {
 
 impl Target<'_> {
     /// The ring around most arrows; its radius beside it where the frame cuts it.
-    fn ring(&mut self, radius: f64, ink: InkRole, decimals: usize, texts: &mut Vec<Label>) {
+    fn ring(&mut self, (tag, radius): (Tag, f64), ink: InkRole, decimals: usize, texts: &mut Vec<Label>) {
         let points = circle(radius);
-        self.outline("95 % quantile of the lengths", &points, ink, (1.2, Dash::Dashed));
+        self.outline((tag, "95 % quantile of the lengths"), &points, ink, (1.2, Dash::Dashed));
         if !points.iter().all(|point| self.area.contains(self.at(*point))) {
-            let label = self.radius(format!("95 %: {}", fixed(radius, decimals)), radius);
-            texts.insert(0, Label { shorter: vec!["95 %".to_owned()], ..label });
+            let mut label = self.radius(format!("95 %: {}", fixed(radius, decimals)), radius);
+            // Within and beyond the ring wherever its frame leaves room.
+            let along = points.iter().step_by(3).flat_map(|at| {
+                let [x, y] = at.map(|v| v / radius);
+                [1.0, -1.0].map(|out| Place::beside(self.at(*at), [out * x, -out * y], 5.0))
+            });
+            label.places.extend(along.filter(|place| self.holds(&label.text, place)));
+            label.shorter = vec![fixed(radius, decimals)];
+            texts.insert(0, Label { ink: ink.into(), ..label });
         }
     }
 
@@ -438,7 +483,8 @@ impl Target<'_> {
         let small = |text: String, places: Vec<Place>| Label::new(text, InkRole::Weak, places);
         for count in 1..=(self.frame.reach(self.area) / (step * self.frame.scale)) as u32 {
             let radius = f64::from(count) * step;
-            self.outline(&format!("length {}", number(radius)), &circle(radius), InkRole::Grid, (1.0, Dash::Solid));
+            let name = format!("length {}", number(radius));
+            self.outline((PickIndex::NONE, &name), &circle(radius), InkRole::Grid, (1.0, Dash::Solid));
             if named || self.area.width() > 180.0 {
                 texts.push(self.radius(number(radius), radius));
             }
@@ -497,14 +543,15 @@ pub(super) fn words(scene: &Scene<'_>, plane: DifferencePlane, size: [f64; 2]) -
     let all = compared(scene, plane).map_or_else(|_| Vec::new(), |(_, all)| all);
     let frame = Frame::of(scene, &all, plane, size);
     let heads = Heads::new(scene, &frame, &all, plane);
-    let numbers = if heads.form > 1 { " Numbers: mean length of the arrows." } else { "" };
+    let numbers = if heads.form > 1 && heads.form != 4 { " Numbers: mean length of the arrows." } else { "" };
+    let hue = if heads.form < 5 { ", its hue in words" } else { "" };
     let step = number(frame.step());
     let [x, y, _] = axes(plane).0;
     let by_eq_13 = plane == DifferencePlane::Lab && scene.document.transform == TransformChoice::Paper;
     let eq_13 = if by_eq_13 { " L*a*b* of Eq 13 colors, which is not that of the CIE." } else { "" };
     format!(
         "Arrows: {x}, {y} from the reference, in the patch's color; all on one scale, double tip: beyond the frame. Cross: mean \
-         vector. Dashed ring: 95 % quantile of the lengths. Gray rings: every {step}.{}{numbers}{eq_13}",
+         vector{hue}. Dashed ring: 95 % quantile of the lengths. Gray rings: every {step}.{}{numbers}{eq_13}",
         limit_words(scene, plane)
     )
 }

@@ -23,7 +23,7 @@ const BESIDE: f64 = 52.0;
 /// The least height of a swatch in a row.
 const LEAST_ROW: f64 = 16.0;
 /// The least height of colors above a number in a chart.
-const LEAST_COLOR: f64 = 13.0;
+const LEAST_COLOR: f64 = 12.0;
 /// The least width of a swatch with its number above the bar in a chart.
 const LEAST_ABOVE: f64 = 18.0;
 /// The least length of a bar beside its number in a chart.
@@ -38,7 +38,7 @@ const HATCH: f64 = 5.0;
 const HEAD: f64 = 20.0;
 /// Room of the marker before a name, and least space between a name and what stands behind it.
 const KEY: f64 = 18.0;
-const AIR: f64 = 8.0;
+const AIR: f64 = 6.0;
 /// The least width of a column with a name.
 const LEAST_COLUMN: f64 = 68.0;
 
@@ -216,29 +216,30 @@ impl<'a> Board<'a> {
         }
     }
 
-    /// The largest difference of a chart in words, in one of three forms.
+    /// The largest difference of a chart in words, in one of four forms.
     fn worst_words(&self, row: &Row, form: usize) -> Option<(String, &String)> {
         let (worst, patch) = row.worst(&self.names)?;
         let number = short(self.scene.document.difference, worst);
         let measure = self.scene.difference_name();
         let words = match form {
             0 => format!("worst {measure} {number}, {patch}"),
-            1 => format!("{measure} {number}, {patch}"),
-            _ => format!("{measure} {number}"),
+            1 => format!("max {measure} {number}, {patch}"),
+            2 => format!("{measure} ≤ {number}"),
+            _ => format!("≤ {number}"),
         };
         Some((words, patch))
     }
 
     /// The longest form of largest differences and of names, in full or short, that fits in the heads of all charts.
     fn head_form(&self, rows: &[&Row], width: f64) -> (usize, bool) {
-        let forms = (0..3).flat_map(|words| [false, true].map(|is_short| (words, is_short)));
+        let forms = (0..4).flat_map(|words| [false, true].map(|is_short| (words, is_short)));
         let fits = |(form, is_short): &(usize, bool)| {
             rows.iter().all(|row| {
                 let words = self.worst_words(row, *form).map_or(0.0, |(words, _)| text_width(&words, TextSize::Small));
                 KEY + text_width(row.name(*is_short), TextSize::Body) + words + AIR <= width
             })
         };
-        forms.clone().find(fits).unwrap_or((2, true))
+        forms.clone().find(fits).unwrap_or((3, true))
     }
 
     /// A chart's marker and name, and at its right end its largest difference, which stands for that patch.
@@ -379,11 +380,15 @@ fn chart_columns(count: usize) -> usize {
 }
 
 /// Number of charts side by side, and the size of a swatch with its note: the largest that fits and fills the area, neither
-/// side longer than twice the other, with numbers above the bars where only so all fit, else the least high, and the charts scroll.
+/// side longer than twice the other, with numbers above the bars or without where only so all fit, else the least high, and the
+/// charts scroll.
 fn chart_cell(charts: usize, columns: usize, lines: usize, size: [f64; 2], least: [f64; 2]) -> (usize, [f64; 2]) {
     let narrow = (least[0] - 4.0 - LEAST_TRACK).max(LEAST_ABOVE.min(least[0]));
     let above = [narrow, LEAST_COLOR + Note::Above.height()];
-    let largest = [least, above].into_iter().find_map(|least| largest_cell(charts, [columns, lines], size, least));
+    // On paper, where nothing scrolls, the board is higher instead.
+    let bars = Some([least[0].min(16.0), Note::Bar.height() + LEAST_COLOR]).filter(|_| size[0] >= NARROW);
+    let largest =
+        [least, above].into_iter().chain(bars).find_map(|least| largest_cell(charts, [columns, lines], size, least));
     largest.unwrap_or_else(|| {
         let width = |across: f64| (size[0] / across - 2.0 * MARGIN) / columns as f64 - GAP / 2.0;
         let most = size[0] / (columns as f64 * (least[0] + GAP / 2.0) + 2.0 * MARGIN);
