@@ -40,6 +40,7 @@ const CORE_LAYERS: &[&str] = &[
 const APP_LAYERS: &[&str] = &[
     "format",
     "names",
+    "hosted",
     "terminal",
     "palette",
     "atomic",
@@ -458,7 +459,7 @@ fn an_app_module_that_looks_up_is_found() {
     let text =
         "use crate::format::number;\nuse crate::{action::Action, document};\nfn f(_: super::super::view::View) {}";
     let rule = "src/workbench/src/document/own.rs:";
-    let only = "only format, names, terminal, palette, atomic";
+    let only = "only format, names, hosted, terminal, palette, atomic";
     let expected = [
         format!("{rule}2: `document` may not use `action`, {only}"),
         format!("{rule}3: `document` may not use `view`, {only}"),
