@@ -280,7 +280,8 @@ fn grid_light(given: &Bound<'_, PyAny>) -> PyResult<GridSpectrum> {
         return sets::light(name.to_str()?);
     }
     let spectra = Spectra::of("light", given)?;
-    let spectra = spectra.ok_or_else(|| refused("light", "expected a name or an object with wavelengths and values"))?;
+    let spectra =
+        spectra.ok_or_else(|| refused("light", "expected a name or an object with wavelengths and values"))?;
     Ok(GridSpectrum::resample(&spectra.only("light")?, Quantity::Light))
 }
 
@@ -333,7 +334,10 @@ fn product<'py, T: Number>(given: &Bound<'py, PyAny>, length: usize, curves: &[T
     let spectra = numbers::<T>(ARGUMENT, given)?;
     let Some((_, before)) = spectra.shape().split_last().filter(|(last, _)| **last == length) else {
         let found = shape_text(spectra.shape());
-        return Err(refused(ARGUMENT, format!("expected shape (…, {length}), as there are wavelengths; found {found}")));
+        return Err(refused(
+            ARGUMENT,
+            format!("expected shape (…, {length}), as there are wavelengths; found {found}"),
+        ));
     };
     let mut shape = before.to_vec();
     let batch = Batch::new(curves, length).map_err(|error| refused("sensitivities", error))?;

@@ -5,11 +5,8 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyList, PyTuple};
 
-use crate::arrays::refused;
 use crate::commands::{Call, loads};
 use crate::sets::curves;
-
-type Keywords<'a, 'py> = Option<&'a Bound<'py, PyDict>>;
 
 /// Runs a command of the program, `run("compare", camera="Nikon D70", format="csv")`, and returns what it would print.
 ///
@@ -20,7 +17,7 @@ pub(crate) fn run(
     py: Python<'_>,
     command: &str,
     arguments: &Bound<'_, PyTuple>,
-    options: Keywords<'_, '_>,
+    options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<String> {
     let mut call = Call::new(&command.split(' ').collect::<Vec<_>>())?;
     call.keywords(options)?;
@@ -40,7 +37,7 @@ pub(crate) fn run(
 pub(crate) fn metrics<'py>(
     py: Python<'py>,
     cameras: &Bound<'py, PyTuple>,
-    options: Keywords<'_, 'py>,
+    options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let mut call = Call::new(&["compare"])?;
     call.keywords(options)?;
@@ -62,7 +59,7 @@ pub(crate) fn matrix<'py>(
     py: Python<'py>,
     camera: &Bound<'py, PyAny>,
     illuminant: &Bound<'py, PyAny>,
-    options: Keywords<'_, 'py>,
+    options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let text = fitted(py, (camera, illuminant), "json", options)?.text()?;
     let found = loads(py, &text)?;
@@ -96,7 +93,7 @@ pub(crate) fn profile<'py>(
     camera: &Bound<'py, PyAny>,
     illuminant: &Bound<'py, PyAny>,
     form: &str,
-    options: Keywords<'_, 'py>,
+    options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyBytes>> {
     Ok(PyBytes::new(py, &fitted(py, (camera, illuminant), form, options)?.bytes()))
 }
@@ -105,7 +102,7 @@ fn fitted(
     py: Python<'_>,
     (camera, illuminant): (&Bound<'_, PyAny>, &Bound<'_, PyAny>),
     form: &str,
-    options: Keywords<'_, '_>,
+    options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<crate::commands::Answer> {
     let mut call = Call::new(&["matrix"])?;
     call.keywords(options)?;
@@ -125,7 +122,7 @@ fn fitted(
 pub(crate) fn light<'py>(
     py: Python<'py>,
     lights: &Bound<'py, PyTuple>,
-    options: Keywords<'_, 'py>,
+    options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let mut call = Call::new(&["light"])?;
     call.keywords(options)?;
@@ -142,7 +139,7 @@ pub(crate) fn light<'py>(
 /// Options: `camera`, `observer`, `temperatures` in kelvins, or `from_`, `to`, `count`; `reference`, `illuminant`, `transform`, ….
 #[pyfunction]
 #[pyo3(signature = (**options))]
-pub(crate) fn locus<'py>(py: Python<'py>, options: Keywords<'_, 'py>) -> PyResult<Bound<'py, PyDict>> {
+pub(crate) fn locus<'py>(py: Python<'py>, options: Option<&Bound<'py, PyDict>>) -> PyResult<Bound<'py, PyDict>> {
     columns_of(py, "locus", options)
 }
 
@@ -152,14 +149,14 @@ pub(crate) fn locus<'py>(py: Python<'py>, options: Keywords<'_, 'py>) -> PyResul
 /// Options: `camera`, `observer`, `chart`, `illuminant`, `white_balance`, `reference`, `transform`, `radiance`, ….
 #[pyfunction]
 #[pyo3(signature = (**options))]
-pub(crate) fn patches<'py>(py: Python<'py>, options: Keywords<'_, 'py>) -> PyResult<Bound<'py, PyDict>> {
+pub(crate) fn patches<'py>(py: Python<'py>, options: Option<&Bound<'py, PyDict>>) -> PyResult<Bound<'py, PyDict>> {
     columns_of(py, "patches", options)
 }
 
 fn columns_of<'py>(
     py: Python<'py>,
     command: &'static str,
-    options: Keywords<'_, 'py>,
+    options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let mut call = Call::new(&[command])?;
     call.keywords(options)?;
@@ -194,7 +191,7 @@ fn columns<'py>(py: Python<'py>, csv: &str) -> PyResult<Bound<'py, PyDict>> {
 pub(crate) fn identify<'py>(
     py: Python<'py>,
     recorded: &Bound<'py, PyAny>,
-    options: Keywords<'_, 'py>,
+    options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let mut call = Call::new(&["identify"])?;
     call.keywords(options)?;
@@ -214,7 +211,7 @@ pub(crate) fn identify<'py>(
 pub(crate) fn recover<'py>(
     py: Python<'py>,
     recorded: &Bound<'py, PyAny>,
-    options: Keywords<'_, 'py>,
+    options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     const FILE: &str = "camera.csv";
     let mut call = Call::new(&["recover", "chart"])?;

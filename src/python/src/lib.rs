@@ -4,7 +4,8 @@
 //! arrays       array-likes → numbers; numbers → NumPy arrays
 //! spectra      anything with wavelengths and values → curves
 //! commands     keywords → arguments of a command; its output, files and remarks
-//! sets  color  data sets and files; colorimetry of arrays
+//! sets         data sets and files
+//! color        colorimetry of arrays
 //! computed     commands whose answers are objects: metrics, matrix, light, locus, patches, identify, recover
 //! drawn        figures and pictures
 //! ```
@@ -36,7 +37,7 @@ use pyo3::prelude::*;
 #[pymodule(name = "chromascope")]
 mod module {
     #[pymodule_export]
-    use crate::color::{chromaticities, cct_duv, delta_e, planckian_locus, responses};
+    use crate::color::{cct_duv, chromaticities, delta_e, planckian_locus, responses};
     #[pymodule_export]
     use crate::computed::{identify, light, locus, matrix, metrics, patches, profile, recover, run};
     #[pymodule_export]

@@ -21,7 +21,7 @@ static CATALOG: LazyLock<Catalog> = LazyLock::new(Catalog::built_in);
 
 /// The set of some kinds that a typed name matches.
 fn entry(argument: &str, kinds: &[SetKind], name: &str) -> PyResult<&'static Entry> {
-    let label = kinds.last().map_or("", |kind| chromascope_text::Choice::words(kind).label);
+    let label = kinds.last().map_or("", |kind| kind.label());
     let found = find(kinds.iter().flat_map(|kind| CATALOG.of_kind(*kind)), label, name);
     Ok(found.map_err(|error| refused(argument, error))?.entry)
 }
@@ -138,9 +138,11 @@ pub(crate) fn curves<'py>(py: Python<'py>, json: &str) -> PyResult<Bound<'py, Py
         file.del_item("curves")?;
         for curve in curves.try_iter()? {
             let curve = curve?.cast_into::<PyDict>()?;
-            for (key, name) in
-                [("wavelengths_nm", "wavelengths"), ("values", "values"), ("standard_uncertainty", "standard_uncertainty")]
-            {
+            for (key, name) in [
+                ("wavelengths_nm", "wavelengths"),
+                ("values", "values"),
+                ("standard_uncertainty", "standard_uncertainty"),
+            ] {
                 let Some(numbers) = curve.get_item(key)?.filter(|numbers| !numbers.is_none()) else { continue };
                 curve.del_item(key)?;
                 curve.set_item(name, numpy.call_method1("asarray", (numbers, "float64"))?)?;

@@ -44,7 +44,8 @@ impl Spectra {
             return Ok(Some(spectra));
         }
         let Ok(pair) = given.cast::<PyTuple>() else { return Ok(None) };
-        let is_pair = pair.len() == 2 && pair.iter().all(|part| part.len().is_ok() && !part.is_instance_of::<PyString>());
+        let is_pair =
+            pair.len() == 2 && pair.iter().all(|part| part.len().is_ok() && !part.is_instance_of::<PyString>());
         if is_pair { Ok(Some(Self::new(argument, &pair.get_item(0)?, &pair.get_item(1)?)?)) } else { Ok(None) }
     }
 
@@ -94,19 +95,13 @@ impl Spectra {
         let standard = self.uncertainties.iter().flatten();
         let standard: Vec<Uncertainty> =
             standard.map(|standard| Uncertainty { standard: standard.clone(), coverage: 2.0 }).collect();
-        let trace = |(index, values): (usize, &'_ Vec<f64>)| (index, values.as_slice());
-        let traces: Vec<Trace<'_>> = self
-            .curves
-            .iter()
-            .enumerate()
-            .map(trace)
-            .map(|(index, values)| Trace {
-                name: &names[index],
-                wavelengths_nm: &self.wavelengths,
-                values,
-                uncertainty: standard.get(index),
-            })
-            .collect();
+        let traces = self.curves.iter().enumerate().map(|(index, values)| Trace {
+            name: &names[index],
+            wavelengths_nm: &self.wavelengths,
+            values,
+            uncertainty: standard.get(index),
+        });
+        let traces: Vec<Trace<'_>> = traces.collect();
         let title = self.name.as_deref().unwrap_or(argument);
         let sheet = Sheet { title, content, curves: &traces, ..Sheet::default() };
         let written = write(&sheet, Format::CommentedCsv, Grid::Native).map_err(|error| refused(argument, error))?;

@@ -38,9 +38,7 @@ impl CorrectionFile {
             RgbTransform::Matrix(matrix) => (Some(rows(*matrix)), None),
             RgbTransform::RootPolynomial(polynomial) => {
                 let coefficients = polynomial.coefficients().iter().enumerate();
-                let term = |(index, c): (usize, &glam::DVec3)| {
-                    json!({ "term": RootPolynomial::term_name(index), "xyz": c.to_array() })
-                };
+                let term = |(index, c): (usize, &glam::DVec3)| json!({ "term": RootPolynomial::term_name(index), "xyz": c.to_array() });
                 (None, Some(coefficients.map(term).collect::<Vec<_>>()))
             }
         };
