@@ -174,6 +174,16 @@ class ByValue(unittest.TestCase):
                 cs.responses(spectra, nm, sensitivities), cs.responses(spectra, nm, CAMERA)
             )
 
+    def test_lists_and_tuples(self):
+        camera = cs.cameras(CAMERA)
+        other = {**cs.cameras("Nikon D3300"), "name": "Other"}
+        for both in [(camera, other), [camera, other]]:
+            self.assertEqual(len(set(cs.patches(camera=both)["sensor"])), 2)
+        self.assertEqual(cs.locus(temperatures=(3000.0, 4000))["temperature_k"][-2:].tolist(), [3000, 4000])
+        self.assertEqual(cs.locus(from_=np.float64(3000), to=3000, count=1)["temperature_k"][0], 3000)
+        free, kept = (cs.matrix("Nikon D3300", "D65", free_white=free, fit="lab-least-squares") for free in (True, False))
+        self.assertNotEqual(free["lights"][0]["errors"], kept["lights"][0]["errors"])
+
     def test_recovery_from_raw_values(self):
         chart = "ColorChecker 24 (BabelColor average)"
         truth = cs.cameras(CAMERA)

@@ -105,6 +105,11 @@ class Refusals(unittest.TestCase):
             lambda: cs.planckian_locus(FLAT[:, :2], NM, [3000]),
             lambda: cs.planckian_locus("nobody", None, [3000]),
             lambda: cs.metrics({"wavelengths": NM, "values": FLAT[:, 0]}),
+            lambda: cs.patches(camera=object()),
+            lambda: cs.patches(camera=[["nested", object()]]),
+            lambda: cs.light(b"D65"),
+            lambda: cs.open(3.5j),
+            lambda: cs.run("nothing"),
             lambda: cs.patches(white_balance={"wavelengths": NM, "values": FLAT[:, 0]}),
         ]:
             with self.assertRaises(ValueError):

@@ -234,7 +234,7 @@ fn sensors(
         }
     };
     if let Ok(name) = given.cast::<PyString>() {
-        let sensor = sets::sensor("sensor", &[SetKind::Observer, SetKind::Camera], name.to_str()?)?;
+        let sensor = sets::sensor(ARGUMENT, &[SetKind::Observer, SetKind::Camera], name.to_str()?)?;
         return Ok((vec![(*sensor).clone()], 3));
     }
     let spectra = match wavelengths {

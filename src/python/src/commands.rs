@@ -1,6 +1,6 @@
 //! Commands of the command line, with keywords for options and files by value.
 
-use std::ffi::{CString, OsString};
+use std::ffi::{CString, OsStr, OsString};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -89,7 +89,7 @@ impl Call {
 
     /// Adds an argument that stands by its place, in which spectra may be of a content.
     pub(crate) fn place(&mut self, value: &Bound<'_, PyAny>, option: Option<&str>) -> PyResult<()> {
-        let place = self.value(option.unwrap_or("argument"), value)?;
+        let place = self.value(option.unwrap_or("file"), value)?;
         self.places.push(place);
         Ok(())
     }
@@ -152,7 +152,7 @@ impl Call {
         }
         let is_list = value.is_instance_of::<PyList>()
             || (value.is_instance_of::<PyTuple>() && Spectra::of(long, value)?.is_none())
-            || (value.hasattr("__array__")? && !value.hasattr("wavelengths")?);
+            || (value.hasattr("__array__")? && !value.hasattr("wavelengths")? && value.len().is_ok());
         if !is_list {
             let value = self.value(long, value)?;
             self.option(long, value);
@@ -187,8 +187,12 @@ impl Call {
             return Ok(self.add(&name, text));
         }
         if value.is_instance_of::<PyTuple>() || value.is_instance_of::<PyList>() {
-            let parts = value.try_iter()?.map(|part| text(&part?)).collect::<PyResult<Vec<_>>>()?;
-            return Ok(parts.join(",").into());
+            let parts = value.try_iter()?.map(|part| self.value(long, &part?)).collect::<PyResult<Vec<_>>>()?;
+            return Ok(parts.join(OsStr::new(",")));
+        }
+        if value.extract::<f64>().is_err() {
+            let expected = "expected a name, a file, a number, or an object with wavelengths and values";
+            return Err(refused(long, expected));
         }
         Ok(text(value)?.into())
     }

@@ -44,8 +44,11 @@ impl Spectra {
             return Ok(Some(spectra));
         }
         let Ok(pair) = given.cast::<PyTuple>() else { return Ok(None) };
-        let is_pair =
-            pair.len() == 2 && pair.iter().all(|part| part.len().is_ok() && !part.is_instance_of::<PyString>());
+        let is_array = |part: &Bound<'_, PyAny>| {
+            let is_other = part.is_instance_of::<PyString>() || part.is_instance_of::<PyDict>();
+            !is_other && part.len().is_ok() && part.getattr_opt("wavelengths").is_ok_and(|field| field.is_none())
+        };
+        let is_pair = pair.len() == 2 && pair.iter().all(|part| is_array(&part));
         if is_pair { Ok(Some(Self::new(argument, &pair.get_item(0)?, &pair.get_item(1)?)?)) } else { Ok(None) }
     }
 
