@@ -126,7 +126,7 @@ impl Diagram {
 ///
 /// The nearest blackbody in the CIE 1960 diagram for the CIE 1931 2° observer (380 to 780 nm), from 1000 to 20000 K and up to
 /// |Duv| = 0.05; error below 2e-9 K and 1e-15. `chromaticities` has shape (…, 2), in the `diagram` `xy` or `uv-prime`. Returns
-/// (cct_k, duv), each of shape (…); NaN where there is none.
+/// (CCT, Duv), each of shape (…); NaN where there is none.
 #[pyfunction]
 #[pyo3(signature = (chromaticities, diagram = "xy"))]
 pub(crate) fn cct_duv<'py>(
@@ -180,7 +180,8 @@ pub(crate) fn chromaticities<'py>(
     array(py, found, shape)
 }
 
-/// Signals of blackbodies: C_c(T) = ∫ S_c(λ) M(λ, T) dλ over 380 to 780 nm, up to a factor common to the three channels of a temperature.
+/// Signals of blackbodies: `C_c(T) = ∫ S_c(λ) M(λ, T) dλ` over 380 to 780 nm, up to a factor common to the three channels of a
+/// temperature.
 ///
 /// `temperatures` in kelvins, 1 to 1e15, of shape (…); `sensitivities` a name of the library, an object with `wavelengths` and `values`, or
 /// values of shape (wavelengths, 3) with `wavelengths_nm`. Matching functions keep their negative lobes, `quantity` is `camera` (negative
@@ -245,7 +246,7 @@ fn sensors(
     spectra.ok_or_else(|| refused(ARGUMENT, expected))?.sensors(ARGUMENT, primaries)
 }
 
-/// Responses to many spectra: I_c = ∫ S(λ) L(λ) C_c(λ) dλ over 380 to 780 nm, by the 1 nm sum of the program.
+/// Responses to many spectra: `I_c = ∫ S(λ) L(λ) C_c(λ) dλ` over 380 to 780 nm, by the 1 nm sum of the program.
 ///
 /// `spectra` has shape (…, wavelengths), `wavelengths_nm` shape (wavelengths,): they count as linear between their samples and constant
 /// beyond. `sensitivities` is a name of the library or an object with `wavelengths` and `values` (wavelengths, channels) at

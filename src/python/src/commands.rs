@@ -164,7 +164,9 @@ impl Call {
             self.switch(long);
             self.options.extend(parts);
         } else if matches!(arg.get_action(), ArgAction::Append) && arg.get_value_delimiter().is_none() {
-            parts.into_iter().for_each(|part| self.option(long, part));
+            for part in parts {
+                self.option(long, part);
+            }
         } else {
             // Sizes are written as 512x512.
             let is_size = arg.get_value_names().is_some_and(|names| names.iter().any(|name| name.contains('x')))

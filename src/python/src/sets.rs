@@ -41,13 +41,11 @@ pub(crate) fn light(name: &str) -> PyResult<GridSpectrum> {
 
 /// All sets of a kind, or the one of a name.
 fn sets<'py>(py: Python<'py>, kind: SetKind, name: Option<&str>) -> PyResult<Bound<'py, PyAny>> {
-    match name {
-        Some(name) => Ok(set(py, entry("name", &[kind], name)?)?.into_any()),
-        None => {
-            let all = CATALOG.of_kind(kind).map(|entry| set(py, entry)).collect::<PyResult<Vec<_>>>()?;
-            Ok(PyList::new(py, all)?.into_any())
-        }
+    if let Some(name) = name {
+        return Ok(set(py, entry("name", &[kind], name)?)?.into_any());
     }
+    let all = CATALOG.of_kind(kind).map(|entry| set(py, entry)).collect::<PyResult<Vec<_>>>()?;
+    Ok(PyList::new(py, all)?.into_any())
 }
 
 /// A set with its source and terms; one curve has values of shape (wavelengths,), several (wavelengths, curves).
