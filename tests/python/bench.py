@@ -91,7 +91,7 @@ def temperatures():
 
 def tristimulus():
     nm = np.arange(380, 781)
-    spectra = GENERATOR.random((5_000, nm.size))
+    spectra = GENERATOR.random((20_000, nm.size))
     shape = colour.SpectralShape(380, 780, 1)
     observer = colour.MSDS_CMFS["CIE 1931 2 Degree Standard Observer"].copy().align(shape)
     equal = colour.sd_ones(shape)
@@ -101,7 +101,7 @@ def tristimulus():
         lambda: colour.msds_to_XYZ(spectra, observer, equal, method="Integration", shape=shape))
     exact = (spectra[:100].astype(np.longdouble)[:, None, :] * observer.values.T).astype(np.longdouble)
     exact = (exact.sum(-1) - (exact[..., 0] + exact[..., -1]) / 2)
-    told("XYZ of 5,000 spectra, relative", (own, relative(found[:100], exact)),
+    told("XYZ of 20,000 spectra, relative", (own, relative(found[:100], exact)),
          ("colour", other, relative(np.asarray(theirs)[:100] * integral, exact)), 10)
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 import chromascope as cs
-from support import SAMPLES, command
+from support import ROOT, SAMPLES, command
 
 CAMERA = "Nikon D70 (UPenn 2011)"
 OBSERVER = "CIE 1931 2°"
@@ -92,9 +92,10 @@ class Digits(unittest.TestCase):
             np.testing.assert_allclose(cs.delta_e(*labs, formula), columns[column], rtol=1e-11)
 
     def test_open(self):
-        for path in sorted(SAMPLES.iterdir()):
-            if path.suffix not in (".csv", ".txt"):
-                continue
+        corpus = ROOT / "tests" / "spectral-file" / "corpus"
+        paths = [path for path in sorted(corpus.iterdir()) if path.is_file()]
+        read = 0
+        for path in sorted(SAMPLES.iterdir()) + paths[:: max(1, len(paths) // 60)]:
             with self.subTest(path.name):
                 try:
                     found = cs.open(path)
@@ -104,11 +105,22 @@ class Digits(unittest.TestCase):
                     continue
                 report = json.loads(command("inspect", "--json", path)[0])
                 self.assertEqual(len(found), len(report["curves"]))
+                read += 1
                 for curve, expected in zip(found, report["curves"]):
                     self.assertEqual(curve["decisions"], report["decisions"])
+                    self.assertEqual(curve["warnings"], report["warnings"])
                     self.assertEqual(curve["name"], expected["name"])
                     np.testing.assert_array_equal(curve["wavelengths"], expected["wavelengths_nm"])
                     np.testing.assert_array_equal(curve["values"], expected["values"])
+        self.assertGreater(read, 20)
+
+    def test_open_with_overrides_and_folders(self):
+        path = SAMPLES / "cri_14.csv"
+        self.assertEqual(cs.open(path, role="illuminant")[0]["kind"], "illuminant")
+        self.assertEqual(set(np.diff(cs.open(path, step=10)[0]["wavelengths"])), {10})
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            self.assertGreater(len({curve["file"] for curve in cs.open(SAMPLES)}), 3)
 
     def test_library(self):
         for kind in ["cameras", "observers", "charts", "illuminants", "filters", "materials"]:
@@ -121,14 +133,41 @@ class Digits(unittest.TestCase):
                 self.assertEqual(len(one["values"]), len(one["wavelengths"]))
 
     def test_figures(self):
-        for kind in ["chromaticity", "spectra", "swatches", "metrics", "light"]:
-            with tempfile.TemporaryDirectory() as folder:
-                out = Path(folder) / "figure.svg"
-                command("figure", kind, "--camera", CAMERA, "--out", out)
-                figure = cs.figure(kind, camera=CAMERA)
-                self.assertEqual(figure.svg, out.read_text())
+        chart = "ColorChecker 24 (BabelColor average)"
+        patches = cs.charts(chart)
+        raw = cs.responses(patches["values"].T, patches["wavelengths"], CAMERA, "D65")
+        both = {"camera": [CAMERA, "Nikon D3300"]}
+        for kind, file, options in [
+            *((kind, None, both) for kind in ["chromaticity", "differences", "strip", "spectra", "swatches", "light",
+                                              "metrics", "head-to-head", "report-card"]),
+            ("correction", None, {**both, "second_light": "A"}),
+            ("render", None, {**both, "mesh": "sphere", "width": "20mm"}),
+            ("curves", patches, {}),
+            ("recorded", 1e4 * raw / raw.max(), {"chart": chart, "illuminant": "D65"}),
+        ]:
+            with self.subTest(kind), warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                figure = cs.figure(kind, file, **options)
                 self.assertEqual(figure._repr_svg_(), figure.svg)
+                self.assertTrue(figure.svg.startswith("<svg") and figure.svg.rstrip().endswith("</svg>"))
+                if options is both and file is None:
+                    with tempfile.TemporaryDirectory() as folder:
+                        out = Path(folder) / "figure.svg"
+                        command("figure", kind, "--camera", CAMERA, "--camera", "Nikon D3300", "--out", out)
+                        self.assertEqual(figure.svg, out.read_text())
         self.assertEqual(cs.figure("spectra", form="pdf")[:5], b"%PDF-")
+
+    def test_render_of_a_spectral_image(self):
+        cube = ROOT / "tests" / "spectral-image" / "data" / "spy_f32.hdr"
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            try:
+                pictures = cs.render(image=cube, camera=CAMERA)
+            except ValueError as error:
+                _, said = command("render", "--image", cube, "--format", "exr", "--out", "-", code=1)
+                self.assertIn(str(error), said)
+                return
+        self.assertTrue(all(picture.ndim == 3 for picture in pictures.values()))
 
     def test_render(self):
         with tempfile.TemporaryDirectory() as folder:

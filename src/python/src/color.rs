@@ -6,8 +6,8 @@ use chromascope_core::camera::LocusEvaluator;
 use chromascope_core::camera::batch::{Batch, Sample};
 use chromascope_core::colorimetry::{Coordinates, Lab, Metric, Uv60, UvPrime, Xy, Xyz, delta_e_2000_into};
 use chromascope_core::light::{CctError, PlanckianLocus, RadiationConstants};
-use chromascope_core::spectral::grid::COUNT;
-use chromascope_core::spectral::{GridSpectrum, Primaries, Quantity, Sensor, SpectralDistribution};
+use chromascope_core::spectral::grid::{COUNT, wavelength_nm};
+use chromascope_core::spectral::{GridSpectrum, Primaries, Quantity, Sensor};
 use chromascope_core::units::Kelvin;
 use chromascope_workbench::document::{CIE_1931, SetKind};
 use numpy::{Element, PyUntypedArrayMethods as _};
@@ -255,7 +255,6 @@ fn sensors(
 #[pyfunction]
 #[pyo3(signature = (spectra, wavelengths_nm, sensitivities, light = None, quantity = "camera"))]
 pub(crate) fn responses<'py>(
-    py: Python<'py>,
     spectra: &Bound<'py, PyAny>,
     wavelengths_nm: &Bound<'py, PyAny>,
     sensitivities: &Bound<'py, PyAny>,
@@ -265,7 +264,7 @@ pub(crate) fn responses<'py>(
     let wavelengths = self::wavelengths_nm("wavelengths_nm", wavelengths_nm)?;
     let (sensors, channels) = sensors(sensitivities, None, quantity)?;
     let light = light.map(grid_light).transpose()?;
-    let curves = apart(py, || curves(&wavelengths, &sensors, channels, light.as_ref()))?;
+    let curves = curves(&wavelengths, &sensors, channels, light.as_ref());
     let is_single = spectra.getattr_opt("dtype")?.is_some_and(|kind| kind.eq("float32").unwrap_or(false));
     if is_single {
         let curves: Vec<f32> = curves.iter().map(|value| *value as f32).collect();
@@ -290,25 +289,18 @@ fn grid_light(given: &Bound<'_, PyAny>) -> PyResult<GridSpectrum> {
 /// channel, one after the other.
 fn curves(wavelengths: &[f64], sensors: &[Sensor], channels: usize, light: Option<&GridSpectrum>) -> Vec<f64> {
     let count = wavelengths.len();
-    let mut curves = vec![0.0; 3 * sensors.len() * count];
-    let mut hat = vec![0.0; count];
-    for sample in 0..count {
-        hat[sample] = 1.0;
-        if let Ok(spectrum) = SpectralDistribution::new(wavelengths.to_vec(), hat.clone()) {
-            let mut spectrum = GridSpectrum::resample(&spectrum, Quantity::Light);
-            if let Some(light) = light {
-                spectrum = spectrum.times(light);
-            }
-            let values: &[f64; COUNT] = spectrum.values();
-            for (of, sensor) in sensors.iter().enumerate() {
-                for (channel, integral) in sensor.integrate(values).into_iter().enumerate() {
-                    curves[(3 * of + channel) * count + sample] = integral;
-                }
-            }
+    let mut curves = vec![0.0; channels * count];
+    for index in 0..COUNT {
+        let nm = wavelength_nm(index).clamp(wavelengths[0], wavelengths[count - 1]);
+        let above = wavelengths.partition_point(|known| *known < nm).max(1);
+        let share = (nm - wavelengths[above - 1]) / (wavelengths[above] - wavelengths[above - 1]);
+        let power = light.map_or(1.0, |light| light.values()[index]);
+        for (channel, curve) in curves.chunks_exact_mut(count).enumerate() {
+            let weight = sensors[channel / 3].weighted(channel % 3)[index] * power;
+            curve[above - 1] += (1.0 - share) * weight;
+            curve[above] += share * weight;
         }
-        hat[sample] = 0.0;
     }
-    curves.truncate(channels * count);
     curves
 }
 

@@ -53,6 +53,7 @@ fn content(option: &str) -> Option<Content<'static>> {
         }
         "illuminant" | "second-illuminant" | "second-light" | "ssi-reference" => Some(Content::Illuminant),
         "filter" => Some(Content::Transmittance),
+        "curves" => Some(Content::Other),
         "chart" | "training" | "material" | "garment" => Some(Content::Reflectance),
         _ => None,
     }
@@ -101,10 +102,10 @@ impl Call {
         Ok(())
     }
 
-    /// Adds a table of raw values, (patches, 3), or the path of a file.
+    /// Adds a table of raw values, (patches, 3), curves, or the path of a file.
     pub(crate) fn raw(&mut self, value: &Bound<'_, PyAny>) -> PyResult<()> {
-        if is_path(value)? {
-            return self.place(value, None);
+        if is_path(value)? || Spectra::of("file", value)?.is_some() {
+            return self.place(value, Some("curves"));
         }
         let raw = numbers::<f64>("raw values", value)?;
         let values = slice(&raw);

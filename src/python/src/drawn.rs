@@ -32,7 +32,7 @@ impl Figure {
 
 /// Figure of a kind, as `chromascope figure`: `chromaticity`, `spectra`, `swatches`, `metrics`, `light`, `render`, ….
 ///
-/// `file` holds curves for `curves` or raw values, (patches, 3) too, for `recorded`. Options: `camera`, `observer`, `illuminant`, `preset`,
+/// `file` is, for `curves`, a file or an object with `wavelengths` and `values`, and for `recorded` a file or raw values (patches, 3). Options: `camera`, `observer`, `illuminant`, `preset`,
 /// `width`, `font_size`, `style`, `range`, …. With `form` (`pdf`, `png`, `tif`, `csv`, `json`, `tex`) the bytes of such a file are
 /// returned in place of a `Figure`.
 #[pyfunction]
