@@ -191,4 +191,4 @@ def render(form: Literal["exr", "png"] = "exr", **options: Any) -> dict[str, NDA
     """Pictures through cameras by name: `exr` float32 (height, width, RGBXYZA), linear; `png` uint8 (height, width, 4), sRGB."""
 
 def run(command: str, *arguments: Any, **options: Any) -> str:
-    """What a command of the program would print."""
+    """Output of a command of the program, as text."""

@@ -18,7 +18,7 @@ def program():
 
 
 def command(*arguments, code=0):
-    """What a command writes, and says on standard error."""
+    """Output of a command, and its messages on standard error."""
     done = subprocess.run([program(), *map(str, arguments)], capture_output=True, stdin=subprocess.DEVNULL)
     assert done.returncode == code, done.stderr.decode()
     return done.stdout, done.stderr.decode()

@@ -161,13 +161,8 @@ class Digits(unittest.TestCase):
         cube = ROOT / "tests" / "spectral-image" / "data" / "spy_f32.hdr"
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            try:
-                pictures = cs.render(image=cube, camera=CAMERA)
-            except ValueError as error:
-                _, said = command("render", "--image", cube, "--format", "exr", "--out", "-", code=1)
-                self.assertIn(str(error), said)
-                return
-        self.assertTrue(all(picture.ndim == 3 for picture in pictures.values()))
+            pictures = cs.render(image=cube, camera=CAMERA)
+        self.assertEqual([picture.shape for picture in pictures.values()], [(3, 4, 7)])
 
     def test_render(self):
         with tempfile.TemporaryDirectory() as folder:

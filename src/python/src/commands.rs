@@ -27,7 +27,7 @@ pub(crate) struct Call {
     count: usize,
 }
 
-/// What a command wrote.
+/// Output and files of a command.
 pub(crate) struct Answer {
     output: Vec<u8>,
     /// Files in memory, by name.

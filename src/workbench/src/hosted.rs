@@ -71,7 +71,7 @@ pub(crate) fn put(path: &Path, bytes: Vec<u8>) {
     with_files(|files| files.insert(path.to_owned(), bytes.into()));
 }
 
-/// What a command wrote and said.
+/// Output and messages of a command.
 #[derive(Debug, Default)]
 pub struct Streams {
     /// Bytes for standard output.
