@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use chromascope_core::camera::LocusEvaluator;
 use chromascope_core::camera::batch::{Batch, Sample};
-use chromascope_core::colorimetry::{Coordinates, Lab, Metric, Uv60, UvPrime, Xy, Xyz, delta_e_2000_into};
+use chromascope_core::colorimetry::{Lab, Metric, Stimulus, Uv60, UvPrime, Xy, Xyz, delta_e_2000_into};
 use chromascope_core::light::{CctError, PlanckianLocus, RadiationConstants};
 use chromascope_core::spectral::grid::{COUNT, wavelength_nm};
 use chromascope_core::spectral::{GridSpectrum, Primaries, Quantity, Sensor};
@@ -54,8 +54,9 @@ pub(crate) fn delta_e<'py>(
         if *metric == Metric::DELTA_E_2000 {
             delta_e_2000_into(&firsts, &seconds, &mut found);
         } else {
+            let of = |lab| Stimulus { xyz: Xyz::new(0.0, 0.0, 0.0), lab: Some(lab) };
             for ((found, first), second) in found.iter_mut().zip(firsts).zip(seconds) {
-                *found = metric.between(&OfLab(first), &OfLab(second)).unwrap_or(f64::NAN);
+                *found = metric.between(&of(first), &of(second)).unwrap_or(f64::NAN);
             }
         }
         found
@@ -68,23 +69,6 @@ fn labs(numbers: &[f64], count: usize) -> Vec<Lab> {
     let (colors, _) = numbers.as_chunks::<3>();
     let lab = |&[l, a, b]: &[f64; 3]| Lab { l, a, b };
     if colors.len() == 1 { vec![lab(&colors[0]); count] } else { colors.iter().map(lab).collect() }
-}
-
-/// A color of which only L*a*b* is known.
-struct OfLab(Lab);
-
-impl Coordinates for OfLab {
-    fn xy(&self) -> Option<Xy> {
-        None
-    }
-
-    fn uv_prime(&self) -> Option<UvPrime> {
-        None
-    }
-
-    fn lab(&self) -> Option<Lab> {
-        Some(self.0)
-    }
 }
 
 /// A chromaticity diagram's two coordinates.

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use chromascope_workbench::cli::{self, Outcome};
 use chromascope_workbench::hosted::{MemoryFolder, Streams, with_streams};
+use clap::builder::Str;
 use clap::{Arg, ArgAction, Command};
 use numpy::PyUntypedArrayMethods as _;
 use pyo3::exceptions::{PyUserWarning, PyValueError};
@@ -170,8 +171,8 @@ impl Call {
             }
         } else {
             // Sizes are written as 512x512.
-            let is_size = arg.get_value_names().is_some_and(|names| names.iter().any(|name| name.contains('x')))
-                && arg.get_value_names().is_some_and(|names| names.iter().all(|name| !name.contains(',')));
+            let is_size = |names: &[_]| names.iter().any(|name: &Str| ["WxH", "CxR"].contains(&name.as_str()));
+            let is_size = arg.get_value_names().is_some_and(is_size);
             let parts: Vec<String> = parts.iter().map(|part| part.to_string_lossy().into_owned()).collect();
             self.option(long, parts.join(if is_size { "x" } else { "," }));
         }
