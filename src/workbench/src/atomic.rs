@@ -11,6 +11,7 @@ use spectral_file::write::{Beside, Metadata};
 use tempfile::NamedTempFile;
 
 use crate::format::file_name;
+use crate::hosted;
 
 /// The beginning of names of files that are being written.
 pub const TEMPORARY: &str = ".chromascope-";
@@ -25,6 +26,12 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
 
 /// Writes a file whole or not at all, as its contents are made.
 pub fn write_atomically_with(path: &Path, write: impl FnOnce(&mut dyn io::Write) -> io::Result<()>) -> io::Result<()> {
+    if hosted::is_in_memory(path) {
+        let mut bytes = Vec::new();
+        write(&mut bytes)?;
+        hosted::put(path, bytes);
+        return Ok(());
+    }
     // The target of a link is written, and the link stays.
     let target = match fs::canonicalize(path) {
         Ok(target) => target,

@@ -1,7 +1,8 @@
 //! Chromascope without its window: document, history, data sets, scene, figures, export, report and command line.
 //!
 //! ```text
-//! format  terminal  palette    text for display, standard error, colors of figures
+//! format  hosted               text for display; streams and files of commands inside another program
+//! terminal  palette            standard error, colors of figures
 //! atomic                       files written whole or not at all
 //! document ─► action           the comparison and its conditions; its changes, and undo
 //! results ─► jobs              answers, the only cache; computations in the background
@@ -31,6 +32,7 @@ pub mod export;
 pub mod figures;
 pub mod format;
 pub mod help;
+pub mod hosted;
 pub mod jobs;
 pub mod names;
 pub mod palette;

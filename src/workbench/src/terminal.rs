@@ -6,6 +6,7 @@ use std::io::{self, IsTerminal as _, Write};
 use spectral_file::turns_text;
 
 use crate::format::{Tally, listed};
+use crate::hosted;
 
 /// A text as it may go to a terminal. Names come from files, and control characters in them could change what the terminal does or
 /// shows: all but line feeds and tabs become escapes such as `\u{1b}`, and so do characters that turn the direction of text.
@@ -28,6 +29,9 @@ fn escaped(text: &str, escape: impl Fn(char) -> String) -> Cow<'_, str> {
 }
 
 pub fn say(text: &str) {
+    if hosted::hold(|streams| streams.remarks.push(shown(text).into_owned())) {
+        return;
+    }
     // No message can be written once the terminal is closed.
     let _gone = io::stderr().lock().write_all(shown(text).as_bytes());
 }

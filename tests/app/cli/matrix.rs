@@ -16,6 +16,24 @@ fn text(more: &[&str]) -> String {
     String::from_utf8(output(more)).unwrap()
 }
 
+#[test]
+fn json_has_all_digits_of_the_text() {
+    let found: serde_json::Value = serde_json::from_str(&text(&["--format", "json", "--neutral", NEUTRAL])).unwrap();
+    let words = text(&["--neutral", NEUTRAL]).split_whitespace().collect::<Vec<_>>().join(" ");
+    for matrix in
+        ["/lights/0/xyz_from_rgb", "/lights/0/dng/forward_matrix", "/lights/0/dng/color_matrix", "/idt/aces_from_rgb"]
+    {
+        let rows = found.pointer(matrix).and_then(serde_json::Value::as_array).unwrap();
+        let numbers = rows.iter().flat_map(|row| row.as_array().unwrap());
+        let rounded: Vec<String> = numbers.map(|number| format!("{:.7}", number.as_f64().unwrap())).collect();
+        assert!(words.contains(&rounded.join(" ")), "{matrix}: {words}");
+    }
+    // Without a neutral, what its implausible channel ratio would decide is missing.
+    let found: serde_json::Value = serde_json::from_str(&text(&["--format", "json"])).unwrap();
+    assert!(found["lights"][0]["dng"]["color_matrix"].is_null() && found["idt"]["balance"].is_null());
+    assert!(found["lights"][0]["xyz_from_rgb"].is_array());
+}
+
 /// The matrix of rawtoaces for its own D200 under studio tungsten.
 #[test]
 fn clf_holds_the_matrix_of_rawtoaces() {

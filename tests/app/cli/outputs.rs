@@ -6,6 +6,30 @@ use super::{refused, run};
 const CHART: &str = "wavelength_nm,gray\n380,0.2\n780,0.2\n";
 
 #[test]
+fn a_command_inside_another_program_touches_nothing() {
+    use chromascope_workbench::cli::{self, Outcome};
+    use chromascope_workbench::hosted::{MemoryFolder, with_streams};
+
+    let files = MemoryFolder::new();
+    let chart = files.add("a.csv", CHART.replace("gray", "reflectance of gray").into());
+    let chart = chart.to_str().unwrap();
+    let hosted =
+        |arguments: &[&str]| with_streams(|| cli::run(["chromascope"].iter().chain(arguments).map(Into::into)));
+    let (outcome, streams) = hosted(&["list", "cameras"]);
+    assert!(matches!(outcome, Outcome::Done(0)) && streams.remarks.is_empty());
+    assert_eq!(streams.output, run(&["list", "cameras"]).stdout);
+    let out = files.path().join("b.csv");
+    let (outcome, streams) = hosted(&["patches", "--chart", chart, "--out", out.to_str().unwrap()]);
+    assert!(matches!(outcome, Outcome::Done(0)) && streams.output.is_empty(), "{streams:?}");
+    assert!(files.files().iter().any(|(name, bytes)| name == "b.csv" && bytes.starts_with(b"sensor,patch,")));
+    let (outcome, streams) = hosted(&["patches", "--chart", "missing.csv"]);
+    assert!(!matches!(outcome, Outcome::Done(0)) && streams.output.is_empty());
+    assert_eq!(streams.remarks.len(), 1, "{streams:?}");
+    drop(files);
+    assert!(chromascope_workbench::hosted::bytes(&out).is_none());
+}
+
+#[test]
 fn no_input_is_written_over() {
     let folder = folder("inputs");
     let chart = folder.join("a.csv");

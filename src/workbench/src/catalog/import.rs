@@ -7,6 +7,7 @@ use std::sync::Arc;
 use spectral_file::{COVARIANCE, Certainty, Effect, METADATA, ReadError, Role, Source, SpectralFile, Values, Watch};
 
 use crate::document::imported::{Fingerprint, ImportOverrides, ImportedCurve, ImportedSet, ReadAs};
+use crate::hosted;
 
 /// Default maximum number of curves taken from a file.
 pub const TAKEN_AT_FIRST: usize = 200;
@@ -65,6 +66,9 @@ pub fn companions(table: &Path) -> [PathBuf; 3] {
 }
 
 fn contents(path: &Path, most_bytes: u64) -> Option<Vec<u8>> {
+    if let Some(bytes) = hosted::bytes(path) {
+        return Some(bytes.to_vec());
+    }
     let known = fs::metadata(path).ok()?;
     if known.is_file() && known.len() <= most_bytes { fs::read(path).ok() } else { None }
 }

@@ -32,6 +32,7 @@ use crate::atomic::{fitting, paths_beside};
 use crate::catalog::folders::{FolderFiles, NO_SPECTRA, leave_companions_out};
 use crate::catalog::import::Origin;
 use crate::format::{Tally, display_path, file_name, io_failure, io_reason};
+use crate::hosted;
 use crate::terminal::{Remarks, say, shown_json};
 
 const EXAMPLES: &str = "Examples:
@@ -389,7 +390,9 @@ fn contents(file: &Path) -> io::Result<Vec<u8>> {
 }
 
 fn is_standard_input(file: &Path) -> bool {
-    [STANDARD_INPUT, "/dev/stdin", "/dev/fd/0", "/proc/self/fd/0"].iter().any(|name| file == Path::new(name))
+    let names = [STANDARD_INPUT, "/dev/stdin", "/dev/fd/0", "/proc/self/fd/0"];
+    // Another program's standard input is its own.
+    !hosted::holds_streams() && names.iter().any(|name| file == Path::new(name))
 }
 
 /// Time without an end of standard input, which may not be redirected by mistake, after which a notice says what is waited for.

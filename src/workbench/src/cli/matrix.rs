@@ -21,7 +21,7 @@ use crate::export::profile::{
 };
 use crate::results::Results;
 use crate::scene::{Scene, SceneError};
-use crate::terminal::say;
+use crate::terminal::{say, shown_json};
 
 const EXAMPLES: &str = "Examples:
   chromascope matrix \"Nikon D850\" --illuminant D55
@@ -50,7 +50,7 @@ pub(super) struct MatrixArguments {
     /// A filter in front of the illuminants: a name of `chromascope list filters`, or a file with one transmittance; may be repeated
     #[arg(long, value_name = "NAME|FILE")]
     filter: Vec<OsString>,
-    /// A second illuminant, for text, dng and dcp: a name, a file with one curve, `daylight:K` or `blackbody:K`
+    /// A second illuminant, for text, json, dng and dcp: a name, a file with one curve, `daylight:K` or `blackbody:K`
     #[arg(long, value_name = "NAME|FILE")]
     second_illuminant: Option<OsString>,
     /// The fit
@@ -102,6 +102,8 @@ enum Format {
     Icc,
     /// ACES IDT in Common LUT Format
     Clf,
+    /// One object with matrices and errors, with all digits
+    Json,
 }
 
 pub(super) fn run(arguments: &MatrixArguments, _: &ArgMatches) -> Result<()> {
@@ -148,10 +150,13 @@ fn written(arguments: &MatrixArguments, request: &Request, scene: &Scene<'_>) ->
     if let Some(Err(error)) = &file.sheet.second {
         return Err(SceneError::Rendering { name: name.clone(), error: *error }.into());
     }
+    if arguments.format == Format::Json {
+        return Ok(shown_json(&file.json()).into_owned().into_bytes());
+    }
     Ok(file.written(match arguments.format {
         Format::Dng => CorrectionForm::Dng,
         Format::Dcp => CorrectionForm::Dcp,
         Format::Icc => CorrectionForm::Icc(arguments.icc_version),
-        Format::Text | Format::Clf => CorrectionForm::Text,
+        Format::Text | Format::Clf | Format::Json => CorrectionForm::Text,
     })?)
 }

@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 
 use super::error::{CliError, Result};
 use crate::atomic::write_atomically_with;
+use crate::hosted;
 use crate::scene::SceneError;
 use crate::terminal;
 
@@ -129,6 +130,12 @@ pub(super) fn stream(out: Option<&Path>, write: impl FnOnce(&mut dyn io::Write) 
         }
     };
     let done = match path {
+        None if hosted::holds_streams() => {
+            let mut bytes = Vec::new();
+            let done = written(&mut bytes);
+            hosted::hold(|streams| streams.output.append(&mut bytes));
+            done
+        }
         None => written(&mut io::stdout().lock()),
         Some(path) => write_with(path, written),
     };

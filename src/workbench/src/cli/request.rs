@@ -25,6 +25,7 @@ use crate::document::render::{LEAF, MeshChoice, SKIN};
 use crate::document::start::Start;
 use crate::document::{CHART, CIE_1931, Document, FIVE, Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
 use crate::format::{Tally, display_path, io_reason};
+use crate::hosted;
 use crate::scene::{Caution, Scene, SceneError};
 use crate::terminal::{Remarks, say};
 
@@ -455,6 +456,9 @@ fn tell(argument: &str, typed: &str, found: &Found<'_>) {
 /// A file's bytes, truncated just beyond the limit if it is too large. Pipes, sockets and devices are rejected, as in a folder:
 /// they may never end. File descriptors opened by the shell (`<(...)`) are read.
 pub(super) fn read(path: &Path) -> io::Result<Vec<u8>> {
+    if let Some(bytes) = hosted::bytes(path) {
+        return Ok(bytes.to_vec());
+    }
     let known = fs::metadata(path)?;
     if !(known.is_file() || known.is_dir() || is_shells(path, &known)) {
         let why = "named pipes, sockets and devices are not supported; redirect to standard input and use \

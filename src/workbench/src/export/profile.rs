@@ -1,5 +1,6 @@
 //! Color corrections out of the program: text, DNG values, DCP, ICC, CLF.
 
+mod json;
 mod query;
 pub mod shot;
 

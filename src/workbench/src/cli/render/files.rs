@@ -11,6 +11,7 @@ use super::arguments::{Format, RenderArguments};
 use crate::atomic::fitting;
 use crate::cli::error::{CliError, Result, refused};
 use crate::format::slug;
+use crate::hosted;
 use crate::scene::ComparedSensor;
 use crate::terminal::say;
 
@@ -34,7 +35,7 @@ pub(in crate::cli) fn patiently<T>(what: &'static str, work: impl FnOnce() -> T)
 }
 
 pub(in crate::cli) fn make_folder(folder: &Path) -> Result<()> {
-    if folder.as_os_str().is_empty() {
+    if folder.as_os_str().is_empty() || hosted::is_in_memory(folder) {
         return Ok(());
     }
     if folder.exists() && !folder.is_dir() {
