@@ -300,6 +300,11 @@ pub(super) fn suggested(grid: &Grid, evidence: &Evidence) -> Decided<Role> {
         } else {
             let power = header_terms::is_power(label);
             let why = format!("“{}” names light", excerpt(label));
+            let (count, named) =
+                (labels().count(), labels().filter(|label| header_terms::names_light_scale(label)).count());
+            if named == 1 && count > MOST_OTHERS {
+                return Decided::open(Role::Unknown, format!("{why}, alone of {count}"));
+            }
             if power { Decided::certain(Role::Illuminant, why) } else { Decided::guess(Role::Illuminant, why) }
         };
     }
