@@ -13,9 +13,11 @@ pub(super) fn names_axis(text: &str) -> bool {
     // A unit of values may hold one of wavelengths, such as `W/(cm-1)`.
     let of_values = || quantity(text).is_some() || role(text).is_some() || crate::unit_text::unit(text).is_some();
     // Those at which light is emitted or absorbed.
-    let lower = lower(text);
-    let named = words(&lower).filter(|word| WavelengthUnit::from_symbol(word).is_none());
-    let two = || matches!(named.collect::<Vec<_>>()[..], [_, "wavelength" | "wavelengths"]);
+    let two = || {
+        let lower = lower(text);
+        let named = words(&lower).filter(|word| WavelengthUnit::from_symbol(word).is_none());
+        matches!(named.collect::<Vec<_>>()[..], [_, "wavelength" | "wavelengths"])
+    };
     (names_wavelengths(text) || energies) && (!of_values() || two())
 }
 
@@ -489,8 +491,8 @@ pub(super) fn names_time(text: &str) -> bool {
 
 /// Returns whether a column's header names a quantity over which no spectrum runs: a time, a temperature, an angle, a place.
 pub(super) fn names_other_axis(text: &str) -> bool {
-    const QUANTITIES: &str = "time|seconds|minutes|hours|elapsed|temperature|temp|theta|2theta|angle|lon|longitude|lat|latitude|current|voltage|date|\
-         year|month|day|hour";
+    const QUANTITIES: &str = "time|seconds|minutes|hours|elapsed|temperature|temp|theta|2theta|angle|lon|longitude|lat|\
+        latitude|current|voltage|date|year|month|day|hour";
     const UNITS: &str = "s|sec|ms|msec|min|h|k|°c|°|deg|degree|degrees|ma|mg/kg";
     let text = lower(text);
     let unit = || {
