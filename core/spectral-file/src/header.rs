@@ -283,7 +283,10 @@ impl Header {
 
     fn take_prose(&mut self, line: usize, text: &str) {
         const ABOUT_Y: &str = "y unit|yunit|yaxisunit|unit:|units:|unit,|units,|unit=|unit =|units=|units =";
-        if let Some(unit) = header_terms::x_unit_in_prose(text) {
+        // A setting such as `Wavenumber correction,0` gives no unit.
+        let number = || text.split_once([',', ';', '\t']).is_some_and(|(_, value)| value.trim().parse::<f64>().is_ok());
+        let setting = |unit: &XUnit| *unit == XUnit::Wavelength(WavelengthUnit::Wavenumber) && !text.contains("cm");
+        if let Some(unit) = header_terms::x_unit_in_prose(text).filter(|unit| !(setting(unit) && number())) {
             self.x_unit = Some((line, unit));
         }
         self.take_coverage(line, text);

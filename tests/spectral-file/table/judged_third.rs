@@ -6,9 +6,9 @@ use super::{error, names, ok, samples};
 
 #[test]
 fn wavelengths_beside_raman_shifts_are_in_their_own_unit() {
-    let table =
-        ok("Laser Wavelength,785.0\n\nPixel,Wavelength,Wavenumber,Processed\n0,799.8,235.7,1\n1,800.4,245.5,2\n\
-                    2,801.0,254.0,3\n3,801.6,263.4,2\n");
+    let settings = "Technique,Raman\nWavenumber Correction,0\nLaser Wavelength,785.0\n\n";
+    let rows = "0,799.8,235.7,1\n1,800.4,245.5,2\n2,801.0,254.0,3\n3,801.6,263.4,2\n";
+    let table = ok(&format!("{settings}Pixel,Wavelength,Wavenumber,Processed\n{rows}"));
     assert_eq!(names(&table), ["Processed"]);
     assert_eq!(samples(&table.curves[0])[0], (799.8, 1.0));
     assert_eq!(table.reading.wavelength_unit.value, WavelengthUnit::Nanometer);
