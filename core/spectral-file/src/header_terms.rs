@@ -12,13 +12,14 @@ pub(super) fn names_axis(text: &str) -> bool {
     let energies = x_unit(text) == Some(XUnit::Other);
     // A unit of values may hold one of wavelengths, such as `W/(cm-1)`.
     let of_values = || quantity(text).is_some() || role(text).is_some() || crate::unit_text::unit(text).is_some();
-    // Those at which light is emitted or absorbed.
-    let two = || {
-        let lower = lower(text);
-        let named = words(&lower).filter(|word| WavelengthUnit::from_symbol(word).is_none());
-        matches!(named.collect::<Vec<_>>()[..], [_, "wavelength" | "wavelengths"])
-    };
-    (names_wavelengths(text) || energies) && (!of_values() || two())
+    (names_wavelengths(text) || energies) && (!of_values() || ends_with_wavelengths(text))
+}
+
+/// Returns whether a name is that of wavelengths with one word before it at most, units aside: those at which light is emitted.
+pub(super) fn ends_with_wavelengths(text: &str) -> bool {
+    let lower = lower(text);
+    let named: Vec<&str> = words(&lower).filter(|word| WavelengthUnit::from_symbol(word).is_none()).collect();
+    named.len() < 3 && named.last().is_some_and(|word| is_one(word, "wavelength|wavelengths|wavenumber"))
 }
 
 pub(super) fn says_percent(text: &str) -> bool {
@@ -382,8 +383,8 @@ const NAMES: &str = "wavelength|wavelengths|wave|wl|wvl|lambda|λ|wavenumber|wav
 const CALLED: &str = "wellenl|longueur d|longitud de onda|lunghezza d|comprimento de onda|golflengte|våglängd|bølgel|długość fal|\
     vlnová délka|длина волны|波長|波长|파장";
 
-/// Returns whether a name in lower case is that of wavelengths and nothing else.
-pub(super) fn is_axis_name(name: &str) -> bool {
+/// Returns whether a name is that of wavelengths and nothing else.
+fn is_axis_name(name: &str) -> bool {
     is_one(name, NAMES) || CALLED.split('|').any(|start| name.starts_with(start))
 }
 

@@ -63,6 +63,10 @@ fn names_that_are_none_and_names_that_are_numbers() {
         ok("# Made by hand\n# Column 1: Wavelength nm\n# Column 2: leaf reflectance\n400 0.5\n401 0.25\n402 0.75\n");
     assert_eq!((names(&described), described.role.value), (vec!["leaf reflectance"], Role::Reflectance));
     assert_eq!(described.reading.wavelength_unit.certainty, Certainty::Certain);
+    let shifted =
+        ok("# Column 1: Rest wavelength (Angstrom)\n# Column 2: flux\n# Column 3: Observed wavelength (Angstrom)\n\
+                      4000 0.5 400000\n4010 0.25 401000\n4020 0.75 402000\n");
+    assert_eq!((names(&shifted), shifted.curves[0].wavelengths_nm[0]), (vec!["flux"], 400.0));
 }
 
 #[test]
