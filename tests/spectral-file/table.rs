@@ -10,6 +10,7 @@ mod evidence;
 mod judged;
 mod judged_columns;
 mod judged_more;
+mod judged_third;
 mod light_units;
 mod limits;
 mod parts;

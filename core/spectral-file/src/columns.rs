@@ -398,7 +398,8 @@ fn raw_curve(header: &Header, column: usize, only: bool, values: Vec<f64>) -> Ra
     // What is measured names no sample, where there is only one.
     let named =
         header.name(column).map(unit_text::without_unit).filter(|name| !(only && header_terms::is_quantity(name)));
-    let given = named.or(title);
+    // A sign of YAML or a rule is no name.
+    let given = named.filter(|name| !name.bytes().all(|byte| b"|>-_=:".contains(&byte))).or(title);
     let name = given.map_or_else(|| format!("Column {}", column + 1), str::to_owned);
     let (named, label, unit) = (given.is_some(), header.label(column), header.unit(column));
     RawCurve { name, named, column: Some(column + 1), origin: column, label, unit, values, ..RawCurve::default() }
@@ -416,12 +417,24 @@ fn warn_of_names_without_columns(header: &Header, width: usize, log: &mut Log<'_
 fn drop_without_wavelength(grid: &mut Grid, log: &mut Log<'_>) {
     let marked: Vec<bool> = grid.wavelengths.iter().map(|value| value.is_nan()).collect();
     let mut list = LineList::default();
+    // Numbers in order above curves without names, such as wavelengths of excitation, name them.
+    let heads = || grid.curves.iter().map(|curve| curve.values.first().copied().unwrap_or(f64::NAN));
+    let unnamed =
+        marked.first() == Some(&true) && grid.curves.len() > 2 && !grid.curves.iter().any(|curve| curve.named);
+    let are_names = unnamed && heads().is_sorted_by(|a, b| a < b);
+    for curve in grid.curves.iter_mut().filter(|_| are_names) {
+        (curve.name, curve.named) = (curve.values[0].to_string(), true);
+    }
     for (index, _) in marked.iter().enumerate().filter(|(_, marked)| **marked) {
-        list.add(grid.line(index));
+        if index > 0 || !are_names {
+            list.add(grid.line(index));
+        }
         grid.drop_row(grid.line(index), Dropped::NoWavelength);
     }
-    if !list.is_empty() {
+    if are_names || !list.is_empty() {
         grid.remove(&marked);
+    }
+    if !list.is_empty() {
         log.push(Warning::NoWavelength(list));
     }
 }

@@ -5,12 +5,12 @@ mod names;
 use chromascope_text::unguarded;
 
 use crate::clues::{self, Clues};
-use crate::decision::{Medium, Orientation, Quantity, Role, Values};
+use crate::decision::{Medium, Orientation, Quantity, Role, Values, WavelengthUnit};
 use crate::dialect::Dialect;
 use crate::dialect_trial::Layout;
 use crate::error::MAX_CURVES;
 use crate::header_terms::{self, XUnit};
-use crate::text::{Lines, Section, comment, is_one, lower};
+use crate::text::{Lines, Section, comment, has_word, is_one, lower};
 use crate::{heads, uncertainty_terms, unit_text, units};
 
 const MAX_COMMENTS: usize = 1000;
@@ -38,6 +38,8 @@ pub(super) struct Header {
     pub(super) medium: Option<(usize, Medium)>,
     /// Coverage factor k of the uncertainties in the table.
     pub(super) coverage: Option<(usize, f64)>,
+    /// True if a line speaks of Raman scattering, whose spectra are over differences of wave numbers.
+    pub(super) raman: bool,
     /// True if the table is one of calibration coefficients, which no word makes spectra.
     pub(super) calibration: bool,
     pub(super) role: Option<(usize, Role)>,
@@ -98,6 +100,7 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
     let mut header = Header::default();
     let mut near: Vec<(usize, &str)> = Vec::with_capacity(NEAR + 1);
     let mut named_above = None;
+    let mut described = Vec::new();
     let mut lines = Lines::of(section).take_while(|(number, _)| *number < layout.header_end());
     while let Some((number, line)) = lines.next() {
         if line.trim().is_empty() {
@@ -121,9 +124,16 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
         // Two are prose, unless each has a unit.
         let united = |names: &str| names.ends_with([')', ']']);
         let text = body.unwrap_or(line);
+        header.raman |= has_word(&lower(text), "raman");
         if named_above.is_none() && (layout.width > 2 || united(text)) {
             let names = names::split_otherwise(layout, text).filter(|names| layout.width > 2 || united(&names[0]));
             named_above = names.map(|names| (number, names));
+        }
+        if let Some((_, name)) = body.and_then(described_column).filter(|(at, _)| *at == described.len() + 1) {
+            described.push(name.to_owned());
+            if described.len() == layout.width {
+                named_above = named_above.or_else(|| Some((number, described.clone())));
+            }
         }
         let line = body.map_or_else(|| whole(section, line, layout.dialect(), &mut lines), |_| line);
         if let Some((key, value)) = body.and_then(|body| body.split_once(':')) {
@@ -145,6 +155,9 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
             (header.line, header.names) = (Some(line), names);
         }
         header.settle_units(layout);
+        if let Some((line, XUnit::Wavelength(WavelengthUnit::Wavenumber))) = header.x_unit.filter(|_| header.raman) {
+            header.x_unit = Some((line, XUnit::Other));
+        }
         heads::take(&mut header);
     }
     header
@@ -158,6 +171,14 @@ fn braced(line: &str) -> Option<(&str, &str)> {
     let (inner, rest) = line.trim().strip_prefix("{ ")?.split_once('}')?;
     let (key, value) = inner.split_once(':').unwrap_or((inner, rest));
     Some((key.trim(), value.trim()))
+}
+
+/// Number and name of a column in a comment: `Column 1: wavelength nm`, `Column 2 = flux`.
+fn described_column(body: &str) -> Option<(usize, &str)> {
+    let (key, name) = body.split_once([':', '='])?;
+    let (word, number) = key.trim().split_once(' ')?;
+    let number = number.trim().parse().ok().filter(|_| is_one(&lower(word), "column|col|col."))?;
+    Some((number, name.trim())).filter(|(_, name)| !name.is_empty())
 }
 
 /// Name and unit of a column in the head of an ECSV: `- {name: flux, unit: W / m2, datatype: float64}`.
@@ -262,7 +283,10 @@ impl Header {
 
     fn take_prose(&mut self, line: usize, text: &str) {
         const ABOUT_Y: &str = "y unit|yunit|yaxisunit|unit:|units:|unit,|units,|unit=|unit =|units=|units =";
-        if let Some(unit) = header_terms::x_unit_in_prose(text) {
+        // A setting such as `Wavenumber correction,0` gives no unit.
+        let number = || text.split_once([',', ';', '\t']).is_some_and(|(_, value)| value.trim().parse::<f64>().is_ok());
+        let setting = |unit: &XUnit| *unit == XUnit::Wavelength(WavelengthUnit::Wavenumber) && !text.contains("cm");
+        if let Some(unit) = header_terms::x_unit_in_prose(text).filter(|unit| !(setting(unit) && number())) {
             self.x_unit = Some((line, unit));
         }
         self.take_coverage(line, text);

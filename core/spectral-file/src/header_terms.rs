@@ -11,8 +11,15 @@ pub(super) const UNSPECIFIED: &str = "unspecified quantity";
 pub(super) fn names_axis(text: &str) -> bool {
     let energies = x_unit(text) == Some(XUnit::Other);
     // A unit of values may hold one of wavelengths, such as `W/(cm-1)`.
-    let of_values = quantity(text).is_some() || role(text).is_some() || crate::unit_text::unit(text).is_some();
-    (names_wavelengths(text) || energies) && !of_values
+    let of_values = || quantity(text).is_some() || role(text).is_some() || crate::unit_text::unit(text).is_some();
+    (names_wavelengths(text) || energies) && (!of_values() || ends_with_wavelengths(text))
+}
+
+/// Returns whether a name is that of wavelengths with one word before it at most, units aside: those at which light is emitted.
+pub(super) fn ends_with_wavelengths(text: &str) -> bool {
+    let lower = lower(text);
+    let named: Vec<&str> = words(&lower).filter(|word| WavelengthUnit::from_symbol(word).is_none()).collect();
+    named.len() < 3 && named.last().is_some_and(|word| is_one(word, "wavelength|wavelengths|wavenumber"))
 }
 
 pub(super) fn says_percent(text: &str) -> bool {
@@ -424,7 +431,10 @@ pub(super) fn x_unit_in_prose(text: &str) -> Option<XUnit> {
         "wavelength|lambda is in|lambda\" is in|lambda in|wavenumber|wave number|x unit|xunit|x axis|xaxis";
     let text = lower(text);
     let start = WORDS.split('|').find_map(|word| text.find(word))?;
-    x_unit(&text[start..])
+    // In a line of names the wave numbers have a column of their own.
+    let text = &text[start..];
+    let end = text.find("wavenumber").filter(|at| text[..*at].ends_with([',', ';', '\t']));
+    x_unit(&text[..end.unwrap_or(text.len())])
 }
 
 /// A name in lower case without the argument of a function of wavelength: `S(λ)` and `V(lambda)` are values.
@@ -482,12 +492,14 @@ pub(super) fn names_time(text: &str) -> bool {
 
 /// Returns whether a column's header names a quantity over which no spectrum runs: a time, a temperature, an angle, a place.
 pub(super) fn names_other_axis(text: &str) -> bool {
-    const QUANTITIES: &str =
-        "time|temperature|temp|theta|2theta|angle|lon|longitude|lat|latitude|current|voltage|date|year|month|day|hour";
+    const QUANTITIES: &str = "time|seconds|minutes|hours|elapsed|temperature|temp|theta|2theta|angle|lon|longitude|lat|\
+        latitude|current|voltage|date|year|month|day|hour";
     const UNITS: &str = "s|sec|ms|msec|min|h|k|°c|°|deg|degree|degrees|ma|mg/kg";
     let text = lower(text);
-    let unit =
-        || text.rsplit_once(['(', '[']).is_some_and(|(_, unit)| is_one(unit.trim_end_matches([')', ']']), UNITS));
+    let unit = || {
+        text.rsplit_once(['(', '[', ','])
+            .is_some_and(|(_, unit)| is_one(unit.trim_end_matches([')', ']']).trim(), UNITS))
+    };
     !names_wavelengths(&text) && (words(&text).next().is_some_and(|word| is_one(word, QUANTITIES)) || unit())
 }
 

@@ -119,6 +119,9 @@ pub(super) fn term(name: &str, label: &str) -> Option<Term> {
     let about = before.iter().rev().take_while(beside).count();
     let (before, last) = before.split_at(before.len() - about);
     let (first, after) = after.split_at(after.iter().take_while(beside).count());
+    // Of how many measurements.
+    let counted = matches!(after, ["n", count] if count.bytes().all(|byte| byte.is_ascii_digit()));
+    let after = if counted { &[][..] } else { after };
     // A deviation divided by the mean.
     let quotient = || text.split_once('/').is_some_and(|(_, mean)| is_one(mean.trim(), MEAN));
     let relative = is_one(word, "rsd|cv|coefficient of variation|urel|u rel")

@@ -103,8 +103,14 @@ fn kind(header: &Header, at: usize, index: usize, wavelengths: &[f64], column: &
         }
         // Whatever it is called.
         () if wavelengths.len() > 1 && column == wavelengths => Kind::Wavelengths,
+        // Beyond the range of light, too, as Raman shifts are.
+        () if name.is_some_and(header_terms::ends_with_wavelengths) && runs_one_way(column) => Kind::Scale,
         () => Kind::Value,
     }
+}
+
+fn runs_one_way(values: &[f64]) -> bool {
+    values.is_sorted_by(|a, b| a <= b) || values.is_sorted_by(|a, b| a >= b)
 }
 
 pub(super) fn unit(header: &Header, column: usize) -> Option<XUnit> {

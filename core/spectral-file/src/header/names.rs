@@ -16,6 +16,10 @@ impl Header {
         while let Some(&(number, line)) = rows.next() {
             let is_comment = comment(line).is_some();
             let mut cells = cells(layout, line, section);
+            // Some mark each name as a comment.
+            for cell in cells.iter_mut().filter(|cell| is_comment && cell.len() > 1 && cell.starts_with('#')) {
+                cell.remove(0);
+            }
             // The name of wavelengths alone, below those of the curves.
             let filled_up = cells.len() == 1 && layout.dialect().cells(line).count() == layout.width;
             if filled_up && header_terms::names_axis(&cells[0]) && !is_unit(&cells[0]) && axis.is_empty() {
@@ -81,6 +85,12 @@ impl Header {
                 cells.insert(0, String::new());
                 self.shifted = true;
             }
+            if let Some((_, above)) = rows.clone().next().filter(|_| cells[0].is_empty())
+                && let Some(axis) = split(layout.dialect(), above).first()
+                && header_terms::names_other_axis(axis)
+            {
+                axis.clone_into(&mut cells[0]);
+            }
             self.set_names(number, cells);
             if self.units.is_empty() && !is_comment {
                 self.take_samples(rows.next(), rows.next().is_none() && self.comments.is_empty(), layout);
@@ -131,7 +141,7 @@ impl Header {
             let split = layout.dialect().cells(line).count();
             let names = filled.iter().all(|&column| layout.dialect().parse(&cells[column]) == Cell::Text);
             let over_axes = filled.first() == axes.first() && filled.iter().all(|column| axes.contains(column));
-            let title = layout.width == 2 && !first;
+            let title = !first && (layout.width == 2 || split < layout.width);
             // A name over its mean and its uncertainty.
             let over_first = statistics > 1 && filled.first() == values.first();
             let over_values = over_first && filled.iter().all(|column| values.contains(column));
@@ -327,7 +337,8 @@ fn is_unit(cell: &str) -> bool {
 fn is_unit_row(cells: &[String]) -> bool {
     // A name that begins so goes on in a bracket of its own: `[x] [transmittance in 1]`.
     let bracketed = cells.iter().filter(|cell| cell.starts_with(['[', '(']) && !cell.contains(" [")).count();
-    bracketed * 2 >= cells.len() || (is_unit(&cells[0]) && cells[1..].iter().all(|cell| looks_like_unit(cell)))
+    let of_axis = is_unit(&cells[0]) || is_one(&cells[0], "s|ms|min|h") && !cells.iter().any(String::is_empty);
+    bracketed * 2 >= cells.len() || (of_axis && cells[1..].iter().all(|cell| looks_like_unit(cell)))
 }
 
 /// Returns whether a cell begins with a number that no unit begins with, as names do: `10% gray`, `5R 4/14`.

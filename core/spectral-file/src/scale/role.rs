@@ -300,6 +300,11 @@ pub(super) fn suggested(grid: &Grid, evidence: &Evidence) -> Decided<Role> {
         } else {
             let power = header_terms::is_power(label);
             let why = format!("“{}” names light", excerpt(label));
+            let count = labels().count();
+            let named = labels().filter(|label| header_terms::names_light_scale(label)).count();
+            if count > MOST_OTHERS && 2 * named < count {
+                return Decided::open(Role::Unknown, format!("{why}, {named} of {count}"));
+            }
             if power { Decided::certain(Role::Illuminant, why) } else { Decided::guess(Role::Illuminant, why) }
         };
     }
