@@ -49,11 +49,14 @@ pub(crate) fn delta_e<'py>(
     let count = shape.iter().product();
     let (first, second) = (slice(&first), slice(&second));
     let found = apart(py, || {
-        let [firsts, seconds] = [labs(first, count), labs(second, count)];
         let mut found = vec![0.0; count];
-        if *metric == Metric::DELTA_E_2000 {
-            delta_e_2000_into(&firsts, &seconds, &mut found);
-        } else {
+        // In parts that stay in the cache.
+        for (part, found) in found.chunks_mut(PART).enumerate() {
+            let [firsts, seconds] = [first, second].map(|numbers| labs(numbers, part * PART, found.len()));
+            if *metric == Metric::DELTA_E_2000 {
+                delta_e_2000_into(&firsts, &seconds, found);
+                continue;
+            }
             let of = |lab| Stimulus { xyz: Xyz::new(0.0, 0.0, 0.0), lab: Some(lab) };
             for ((found, first), second) in found.iter_mut().zip(firsts).zip(seconds) {
                 *found = metric.between(&of(first), &of(second)).unwrap_or(f64::NAN);
@@ -64,11 +67,16 @@ pub(crate) fn delta_e<'py>(
     array(py, found, shape)
 }
 
-/// Colors of triples; one stands for all.
-fn labs(numbers: &[f64], count: usize) -> Vec<Lab> {
-    let (colors, _) = numbers.as_chunks::<3>();
+/// Pairs of colors that are converted together.
+const PART: usize = 1 << 15;
+
+/// Colors of so many triples from a place on; one stands for all.
+fn labs(numbers: &[f64], start: usize, count: usize) -> Vec<Lab> {
     let lab = |&[l, a, b]: &[f64; 3]| Lab { l, a, b };
-    if colors.len() == 1 { vec![lab(&colors[0]); count] } else { colors.iter().map(lab).collect() }
+    match numbers.as_chunks::<3>().0 {
+        [only] => vec![lab(only); count],
+        colors => colors[start..start + count].iter().map(lab).collect(),
+    }
 }
 
 /// A chromaticity diagram's two coordinates.
