@@ -15,11 +15,7 @@ impl Header {
         let mut rows = near.iter().rev();
         while let Some(&(number, line)) = rows.next() {
             let is_comment = comment(line).is_some();
-            let mut cells = cells(layout, line, section);
-            // Some mark each name as a comment.
-            for cell in cells.iter_mut().filter(|cell| is_comment && cell.len() > 1 && cell.starts_with('#')) {
-                cell.remove(0);
-            }
+            let mut cells = unmarked(cells(layout, line, section), is_comment);
             // The name of wavelengths alone, below those of the curves.
             let filled_up = cells.len() == 1 && layout.dialect().cells(line).count() == layout.width;
             if filled_up && header_terms::names_axis(&cells[0]) && !is_unit(&cells[0]) && axis.is_empty() {
@@ -85,11 +81,10 @@ impl Header {
                 cells.insert(0, String::new());
                 self.shifted = true;
             }
-            if let Some((_, above)) = rows.clone().next().filter(|_| cells[0].is_empty())
-                && let Some(axis) = split(layout.dialect(), above).first()
-                && header_terms::names_other_axis(axis)
+            if let Some(axis) =
+                rows.clone().next().filter(|_| cells[0].is_empty()).and_then(|row| other_axis(layout, row))
             {
-                axis.clone_into(&mut cells[0]);
+                cells[0] = axis;
             }
             self.set_names(number, cells);
             if self.units.is_empty() && !is_comment {
@@ -327,6 +322,19 @@ fn is_measured(layout: &Layout, cells: &[String]) -> bool {
         && number(key).is_none()
         && numbers.all(|value| value.is_some())
         && values.iter().filter_map(number).any(|value| value.fract() != 0.0)
+}
+
+/// The cells of a comment that marks each name as one.
+fn unmarked(mut cells: Vec<String>, is_comment: bool) -> Vec<String> {
+    for cell in cells.iter_mut().filter(|cell| is_comment && cell.len() > 1 && cell.starts_with('#')) {
+        cell.remove(0);
+    }
+    cells
+}
+
+/// The name of an axis of other quantities than wavelengths, from the row above a head that begins empty.
+fn other_axis(layout: &Layout, (_, above): &(usize, &str)) -> Option<String> {
+    split(layout.dialect(), above).into_iter().next().filter(|axis| header_terms::names_other_axis(axis))
 }
 
 fn is_unit(cell: &str) -> bool {
