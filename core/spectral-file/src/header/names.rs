@@ -81,12 +81,7 @@ impl Header {
                 cells.insert(0, String::new());
                 self.shifted = true;
             }
-            if let Some(axis) =
-                rows.clone().next().filter(|_| cells[0].is_empty()).and_then(|row| other_axis(layout, row))
-            {
-                cells[0] = axis;
-            }
-            self.set_names(number, cells);
+            self.set_names(number, with_other_axis(cells, layout, rows.clone().next()));
             if self.units.is_empty() && !is_comment {
                 self.take_samples(rows.next(), rows.next().is_none() && self.comments.is_empty(), layout);
             }
@@ -332,9 +327,14 @@ fn unmarked(mut cells: Vec<String>, is_comment: bool) -> Vec<String> {
     cells
 }
 
-/// The name of an axis of other quantities than wavelengths, from the row above a head that begins empty.
-fn other_axis(layout: &Layout, (_, above): &(usize, &str)) -> Option<String> {
-    split(layout.dialect(), above).into_iter().next().filter(|axis| header_terms::names_other_axis(axis))
+/// Cells that begin empty, with the name of an axis of other quantities than wavelengths that the row above begins with.
+fn with_other_axis(mut cells: Vec<String>, layout: &Layout, above: Option<&(usize, &str)>) -> Vec<String> {
+    let above =
+        above.filter(|_| cells[0].is_empty()).and_then(|(_, line)| split(layout.dialect(), line).into_iter().next());
+    if let Some(axis) = above.filter(|axis| header_terms::names_other_axis(axis)) {
+        cells[0] = axis;
+    }
+    cells
 }
 
 fn is_unit(cell: &str) -> bool {
