@@ -110,7 +110,14 @@ pub(super) fn groups(dialect: Dialect, line: &str) -> Vec<Group> {
     let (mut named, mut stated) = (false, None);
     let mut bands: Vec<(usize, Band<'_>)> = Vec::new();
     for (column, cell) in dialect.cells(line).take(MAX_CURVES + 2).enumerate() {
-        let band = head(dialect, cell);
+        let mut band = head(dialect, cell);
+        // `lambda=400.5 404.8 …`: the name of the list stands before its first number.
+        if let Some(first) = &mut band
+            && first.prefix.ends_with('=')
+            && is_band_prefix(first.prefix)
+        {
+            first.prefix = "";
+        }
         if bands.is_empty()
             && has_letter(cell)
             && header_terms::names_wavelengths(cell)

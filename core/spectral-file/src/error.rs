@@ -103,7 +103,7 @@ pub enum ReadError {
     #[error("column {column} holds no wavelengths: the table has {columns} columns")]
     NotWavelengthColumn { column: usize, columns: usize },
     #[error(
-        "line {line}: numbers from {min} to {max} may be ångströms or wave numbers (1/cm): choose the wavelength unit"
+        "line {line}: numbers from {min} to {max} may be ångströms, wave numbers (1/cm) or infrared nanometers: choose the wavelength unit"
     )]
     AmbiguousUnit { line: usize, min: f64, max: f64 },
     #[error("line {0}: commas separate numbers and seem to mark fractions: choose decimal commas, or points if not")]

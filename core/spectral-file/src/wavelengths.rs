@@ -41,7 +41,7 @@ fn unit_from_frequencies(grid: &Grid) -> Option<Result<Decided<WavelengthUnit>, 
     })
 }
 
-/// The unit that a range suggests. If both ångströms and wave numbers fit, only the user knows.
+/// The unit that a range suggests. If ångströms fit as well as wave numbers or nanometers of the infrared, only the user knows.
 fn unit_from_range(grid: &Grid) -> Result<Decided<WavelengthUnit>, ReadError> {
     // Small numbers in no order, or that only count, are no wavelengths in micrometers.
     let steps = || grid.wavelengths.windows(2);
@@ -54,7 +54,10 @@ fn unit_from_range(grid: &Grid) -> Result<Decided<WavelengthUnit>, ReadError> {
     } else if (2000.0..=4000.0).contains(&min) && (7000.0..=12_000.0).contains(&max) && is_named(grid) {
         // The word excludes wave numbers.
         WavelengthUnit::Angstrom
-    } else if min >= 10_000.0 && max <= 100_000.0 || min >= 2000.0 && (3000.0..=20_000.0).contains(&max) {
+    } else if min >= 10_000.0 && max <= 100_000.0
+        || min >= 2000.0 && (3000.0..=20_000.0).contains(&max)
+        || (1000.0..3800.0).contains(&min) && (20_000.0..=100_000.0).contains(&max)
+    {
         return Err(ReadError::AmbiguousUnit { line: grid.line(0), min, max });
     } else if is_bare(grid) && min >= 390.0 && max > 3300.0 && min < 2000.0 && max <= 10_000.0 {
         // No spectrometer for light reaches so far from there, but those for the infrared all do.

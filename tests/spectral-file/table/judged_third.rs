@@ -79,3 +79,17 @@ fn times_and_temperatures_are_no_wavelengths() {
     }
     assert!(matches!(error("T, K\t broad, cm3/s\n300\t2\n350\t3\n400\t4\n"), ReadError::NoWavelengths(_)));
 }
+
+#[test]
+fn a_list_named_at_its_first_wavelength_keeps_it() {
+    let head = "time ms lambda=400.5 404.8 409.1 413.4 417.7 422.0";
+    let table = ok(&format!("{head}\n1 10 0.11 0.12 0.13 0.14 0.15 0.16\n2 20 0.21 0.22 0.23 0.24 0.25 0.26\n"));
+    assert_eq!(samples(&table.curves[0])[0], (400.5, 0.11));
+    assert_eq!(table.curves.len(), 2);
+}
+
+#[test]
+fn a_range_that_is_infrared_in_nanometers_and_seen_in_angstroms_is_asked_for() {
+    let rows: String = (0..24).map(|i| format!("{} 0.{:02}\n", 1150 + 1000 * i, i + 10)).collect();
+    assert!(matches!(error(&format!("#lk f\n{rows}")), ReadError::AmbiguousUnit { .. }));
+}
