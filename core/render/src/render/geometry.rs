@@ -17,6 +17,9 @@ use std::sync::Arc;
 /// The side of the block of samples that share coarse shadow rays.
 const BLOCK: usize = 4;
 
+/// Rows of blocks that one task works on, which share their corners' rays.
+const ROWS: usize = 4;
+
 /// Samples that one task works on.
 const CHUNK: usize = 8192;
 
@@ -207,7 +210,7 @@ impl GeometryImage {
         let disk = lighting.angular_radius();
         let scene = Scene { mesh, visibility, rays: visibility.rays(), light, disk, shadows, reach };
         // Rows whose samples share shadow rays together.
-        let band = BLOCK * size.columns();
+        let band = ROWS * BLOCK * size.columns();
         let bands: Vec<Band> = (0..visibility.hits().len().div_ceil(band))
             .into_par_iter()
             .map(|index| if stop.is_set() { Band::default() } else { scene.part(index * band, band) })
@@ -341,6 +344,24 @@ enum Block {
     Mixed,
 }
 
+/// The shadows of a band's blocks, as far as they were needed.
+struct Blocks {
+    /// The first row of samples, and the blocks in a row.
+    row: usize,
+    across: usize,
+    known: Vec<Block>,
+    /// Samples where blocks meet, if asked for; nothing where no mesh is seen or it is turned away from the light.
+    corners: Vec<Option<Option<bool>>>,
+}
+
+impl Blocks {
+    fn new(row: usize, columns: usize) -> Self {
+        let across = columns.div_ceil(BLOCK);
+        let (known, corners) = (vec![Block::Unknown; across * ROWS], vec![None; (across + 1) * (ROWS + 1)]);
+        Self { row, across, known, corners }
+    }
+}
+
 impl Scene<'_> {
     fn part(&self, start: usize, count: usize) -> Band {
         let hits = self.visibility.hits();
@@ -350,11 +371,12 @@ impl Scene<'_> {
         part.counts.seen = part.seen.len() as u64;
         part.samples.reserve(part.seen.len());
         part.angles.reserve(part.seen.len());
-        let mut blocks = vec![Block::Unknown; self.visibility.size().columns().div_ceil(BLOCK)];
+        let columns = self.visibility.size().columns();
+        let mut blocks = Blocks::new(start / columns, columns);
         let (mut given, mut found) = (Given::NOTHING, Found::NOTHING);
         for run in 0..part.seen.len().div_ceil(LANES) {
             let run = run * LANES..part.seen.len().min((run + 1) * LANES);
-            self.gather(&part.seen[run.clone()], &mut given);
+            self.gather(&part.seen[run.clone()], &blocks, &mut given);
             lanes::find(&given, &self.visibility.eye().world_from_view, &mut found);
             for (lane, at) in run.enumerate() {
                 self.take(part.seen[at], lane, &given, &found, &mut blocks, &mut part);
@@ -364,7 +386,7 @@ impl Scene<'_> {
     }
 
     /// Brings together what the angles of some samples are made of.
-    fn gather(&self, samples: &[u32], given: &mut Given) {
+    fn gather(&self, samples: &[u32], blocks: &Blocks, given: &mut Given) {
         let (hits, triangles) = (self.visibility.hits(), self.mesh.triangles());
         let (positions, normals) = (self.mesh.positions(), self.mesh.normals());
         let columns = self.visibility.size().columns() as u32;
@@ -372,7 +394,7 @@ impl Scene<'_> {
             let hit = hits[sample as usize];
             // Divided once: that is slow.
             let (row, column) = (sample / columns, sample % columns);
-            given.columns[lane] = column;
+            given.blocks[lane] = (row as usize - blocks.row) / BLOCK * blocks.across + column as usize / BLOCK;
             given.rays[0][lane] = self.rays.x(column as usize);
             given.rays[1][lane] = self.rays.y(row as usize);
             given.weights[0][lane] = hit.weights[0];
@@ -396,7 +418,7 @@ impl Scene<'_> {
     }
 
     /// Adds a sample to those that the light reaches, or counts why it does not.
-    fn take(&self, sample: u32, lane: usize, given: &Given, found: &Found, blocks: &mut [Block], part: &mut Band) {
+    fn take(&self, sample: u32, lane: usize, given: &Given, found: &Found, blocks: &mut Blocks, part: &mut Band) {
         let hit = self.visibility.hits()[sample as usize];
         let (place, mut angles) = if found.plain[lane] {
             let (point, normal, behind) = (given.point(lane), found.normal(lane), found.behind[lane]);
@@ -405,8 +427,7 @@ impl Scene<'_> {
             self.checked_angles(sample as usize, hit)
         };
         if angles.cos_i > 0.0 && angles.cos_s > 0.0 {
-            let block = &mut blocks[given.columns[lane] as usize / BLOCK];
-            if self.is_shadowed(&place, sample, block, &mut part.counts.rays) {
+            if self.is_shadowed(&place, sample, (given.blocks[lane], blocks), &mut part.counts.rays) {
                 part.counts.shadowed += 1;
                 angles.cos_i = 0.0;
             } else {
@@ -457,7 +478,13 @@ impl Scene<'_> {
         place.point + mix(lifts, place.hit.barycentric().map(f64::from)) + above
     }
 
-    fn is_shadowed(&self, place: &SeenPlace, sample: u32, block: &mut Block, rays: &mut u64) -> bool {
+    fn is_shadowed(
+        &self,
+        place: &SeenPlace,
+        sample: u32,
+        (block, blocks): (usize, &mut Blocks),
+        rays: &mut u64,
+    ) -> bool {
         let Some((tree, shadows)) = self.shadows else { return false };
         let mut trace = |place: &SeenPlace, sample: u32| {
             *rays += 1;
@@ -471,29 +498,37 @@ impl Scene<'_> {
             Shadows::Off => false,
             Shadows::Full => trace(place, sample),
             Shadows::Coarse => {
-                if let Block::Unknown = block {
-                    *block = self.whole_block(sample, &mut trace).map_or(Block::Mixed, Block::Whole);
+                if let Block::Unknown = blocks.known[block] {
+                    blocks.known[block] =
+                        self.whole_block(block, blocks, &mut trace).map_or(Block::Mixed, Block::Whole);
                 }
-                if let Block::Whole(is_shadowed) = *block { is_shadowed } else { trace(place, sample) }
+                if let Block::Whole(is_shadowed) = blocks.known[block] { is_shadowed } else { trace(place, sample) }
             }
         }
     }
 
-    /// Shadow of the block around a sample if all its corners see the mesh turned to the light and are alike.
-    fn whole_block(&self, sample: u32, trace: &mut impl FnMut(&SeenPlace, u32) -> bool) -> Option<bool> {
+    /// Shadow of a block if its corners all see the mesh turned to the light and are alike.
+    fn whole_block(
+        &self,
+        block: usize,
+        blocks: &mut Blocks,
+        trace: &mut impl FnMut(&SeenPlace, u32) -> bool,
+    ) -> Option<bool> {
         let size = self.visibility.size();
-        let (columns, rows) = (size.columns(), size.rows());
-        let (row, column) = (sample as usize / columns / BLOCK * BLOCK, sample as usize % columns / BLOCK * BLOCK);
-        let [far, low] = [(column + BLOCK).min(columns) - 1, (row + BLOCK).min(rows) - 1];
+        let (across, first) = (blocks.across, blocks.row);
+        let (row, column) = (block / across, block % across);
         let mut of_corner = |(row, column): (usize, usize)| {
-            let at = row * columns + column;
-            let hit = self.visibility.hits()[at];
-            let (place, angles) = hit.is_some().then(|| self.checked_angles(at, hit))?;
-            (angles.cos_i > 0.0 && angles.cos_s > 0.0).then(|| trace(&place, at as u32))
+            *blocks.corners[row * (across + 1) + column].get_or_insert_with(|| {
+                let row = (first + row * BLOCK).min(size.rows() - 1);
+                let at = row * size.columns() + (column * BLOCK).min(size.columns() - 1);
+                let hit = self.visibility.hits()[at];
+                let (place, angles) = hit.is_some().then(|| self.checked_angles(at, hit))?;
+                (angles.cos_i > 0.0 && angles.cos_s > 0.0).then(|| trace(&place, at as u32))
+            })
         };
-        let first = of_corner((row, column))?;
-        let corners = [(row, far), (low, column), (low, far)];
-        corners.into_iter().all(|corner| of_corner(corner) == Some(first)).then_some(first)
+        let shadow = of_corner((row, column))?;
+        let others = [(row, column + 1), (row + 1, column), (row + 1, column + 1)];
+        others.into_iter().all(|corner| of_corner(corner) == Some(shadow)).then_some(shadow)
     }
 
     /// The direction to a point of the light's disk: each of a pixel's samples has its own, so that their mean is the visible share.

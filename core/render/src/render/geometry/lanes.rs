@@ -19,7 +19,8 @@ type Row<T> = [T; LANES];
 type Rows<T> = [Row<T>; 3];
 
 pub(super) struct Given {
-    pub(super) columns: Row<u32>,
+    /// The sample's block in its band.
+    pub(super) blocks: Row<usize>,
     /// x and y of the sample's ray, which goes one ahead.
     pub(super) rays: [Row<f64>; 2],
     /// The weights of the triangle's second and third corner.
@@ -32,7 +33,7 @@ pub(super) struct Given {
 
 impl Given {
     pub(super) const NOTHING: Self = Self {
-        columns: [0; LANES],
+        blocks: [0; LANES],
         rays: [[0.0; LANES]; 2],
         weights: [[0.0; LANES]; 2],
         points: [[[0.0; LANES]; 3]; 3],
