@@ -158,6 +158,11 @@ class Values(unittest.TestCase):
         lit = cs.responses(spectra, nm, camera, "D65")
         power = np.interp(nm, light["wavelengths"], light["values"])
         np.testing.assert_allclose(lit, cs.responses(spectra * power, nm, camera), rtol=1e-13)
+        planck = nm**-5.0 / np.expm1(1.438776877e7 / nm / 3000)
+        ratio = cs.responses(spectra, nm, camera, "blackbody:3000") / cs.responses(spectra * planck, nm, camera)
+        np.testing.assert_allclose(ratio, ratio[0, 0], rtol=1e-12)
+        with self.assertRaisesRegex(ValueError, 'light: "warm" is not a temperature; write daylight:5500'):
+            cs.responses(spectra, nm, camera, "daylight:warm")
         uneven = np.unique(np.concatenate([[395.5, 702.25], np.random.default_rng(6).uniform(396, 702, 60)]))
         coarse = np.random.default_rng(7).random((9, uneven.size))
         filled = np.array([np.interp(nm, uneven, one) for one in coarse])

@@ -242,8 +242,8 @@ fn sensors(
 ///
 /// `spectra` has shape (…, wavelengths), `wavelengths_nm` shape (wavelengths,): they count as linear between their samples and constant
 /// beyond. `sensitivities` is a name of the library or an object with `wavelengths` and `values` (wavelengths, channels) at
-/// wavelengths of its own. `light`, if any, is the name of a set or such an object. Returns shape (…, channels). Arrays of `float32` are
-/// computed in, and give, `float32`.
+/// wavelengths of its own. `light`, if any, is the name of a set, `daylight:K`, `blackbody:K` or such an object. Returns shape
+/// (…, channels). Arrays of `float32` are computed in, and give, `float32`.
 #[pyfunction]
 #[pyo3(signature = (spectra, wavelengths_nm, sensitivities, light = None, quantity = "camera"))]
 pub(crate) fn responses<'py>(

@@ -4,10 +4,12 @@ use std::sync::LazyLock;
 
 use chromascope_core::query::{Direct, Query as _, Shared};
 use chromascope_core::spectral::{GridSpectrum, Sensor};
+use chromascope_core::units::Kelvin;
 use chromascope_figure::Cell;
 use chromascope_workbench::catalog::load::{LightQuery, SensorQuery};
 use chromascope_workbench::catalog::names::find;
 use chromascope_workbench::catalog::{Catalog, Entry};
+use chromascope_workbench::cli::by_formula;
 use chromascope_workbench::document::SetKind;
 use chromascope_workbench::export::spectra;
 use pyo3::exceptions::PyValueError;
@@ -32,10 +34,15 @@ pub(crate) fn sensor(argument: &str, kinds: &[SetKind], name: &str) -> PyResult<
     SensorQuery(place).answer(&Direct).map_err(|error| refused(argument, error))
 }
 
-/// A light of the library on the grid.
+/// A light of the library, or one by formula, on the grid.
 pub(crate) fn light(name: &str) -> PyResult<GridSpectrum> {
-    let place = entry("light", &[SetKind::Illuminant], name)?.place.clone();
-    let light = LightQuery::Set(place).answer(&Direct).map_err(|error| refused("light", error))?;
+    let kelvin = |kelvin| Kelvin::new(kelvin).map_err(|error| refused("light", error));
+    let query = match by_formula(name).map_err(|reason| refused("light", reason))? {
+        Some(("daylight", given)) => LightQuery::Daylight(kelvin(given)?),
+        Some((_, given)) => LightQuery::BlackBody(kelvin(given)?),
+        None => LightQuery::Set(entry("light", &[SetKind::Illuminant], name)?.place.clone()),
+    };
+    let light = query.answer(&Direct).map_err(|error| refused("light", error))?;
     Ok((*light.grid).clone())
 }
 

@@ -31,6 +31,7 @@ use error::Result;
 use outputs::show;
 
 pub use self::list::list;
+pub use self::request::by_formula;
 pub use crate::terminal::say;
 
 /// Commands: each with its arguments, whose doc comment is its line in the help, and the function that runs it.

@@ -488,6 +488,11 @@ fn is_shells(_: &Path, _: &fs::Metadata) -> bool {
 
 /// The name of a formula for light and its temperature in kelvins, as `daylight:6504`.
 fn radiator(argument: &'static str, text: &str) -> Result<Option<(&'static str, f64)>> {
+    by_formula(text).map_err(|reason| CliError::Argument { argument, reason })
+}
+
+/// A light by formula, `daylight:K` or `blackbody:K`: its name and temperature in kelvins.
+pub fn by_formula(text: &str) -> std::result::Result<Option<(&'static str, f64)>, String> {
     let Some((name, kelvin)) = text.split_once(':') else { return Ok(None) };
     let radiator = match name.trim().to_ascii_lowercase().as_str() {
         "daylight" => "daylight",
@@ -497,10 +502,7 @@ fn radiator(argument: &'static str, text: &str) -> Result<Option<(&'static str, 
     let number = kelvin.trim().trim_end_matches(['K', 'k']).trim();
     match number.parse::<f64>().ok().and_then(|kelvin| Kelvin::new(kelvin).ok()) {
         Some(kelvin) => Ok(Some((radiator, kelvin.get()))),
-        None => Err(CliError::Argument {
-            argument,
-            reason: format!("\"{kelvin}\" is not a temperature; write {name}:5500"),
-        }),
+        None => Err(format!("\"{kelvin}\" is not a temperature; write {name}:5500")),
     }
 }
 
