@@ -208,10 +208,11 @@ pub const THEMES: [(egui::ThemePreference, &str); 3] = [
     (egui::ThemePreference::Light, "Light"),
 ];
 
-pub const REPORTS: [(ReportOn, &str); 3] = [
+pub const REPORTS: [(ReportOn, &str); 4] = [
     (ReportOn::Comparison, "This comparison…"),
     (ReportOn::Paper, "The paper, with its cameras and patches…"),
     (ReportOn::Document, "The paper, with these cameras and patches…"),
+    (ReportOn::Library, "The library as files to cite (data package)…"),
 ];
 
 pub fn key_name(shortcut: KeyboardShortcut) -> String {

@@ -122,6 +122,8 @@ pub enum ReportOn {
     Paper,
     /// The paper with the cameras and patches that are compared.
     Document,
+    /// The built-in data sets as files.
+    Library,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -19,7 +19,7 @@ use crate::figures::{chromaticity, swatches};
 use crate::files::{FileForm, SaveRequest, new_folder};
 use crate::format::{io_reason, slug};
 use crate::plot_item::SensorId;
-use crate::report::{PAGE, PIXELS, Report, ReportJob};
+use crate::report::{PIXELS, Report, ReportJob};
 use crate::results::Results;
 use crate::scene::Scene;
 use crate::view::ReportOn;
@@ -154,13 +154,12 @@ impl ChromascopeApp {
     }
 }
 
-const FOLDER: &str = "Chromascope report";
-
 impl ChromascopeApp {
     /// Begins a report in a folder of its own within the chosen one, so that nothing is overwritten.
     pub(super) fn begin_report(&mut self, chosen: &[PathBuf]) {
         let Some((on, parent)) = self.report_on.take().zip(chosen.first()) else { return };
-        let folder = match new_folder(parent, FOLDER) {
+        let name = if on == ReportOn::Library { "Chromascope library" } else { "Chromascope report" };
+        let folder = match new_folder(parent, name) {
             Ok(folder) => folder,
             Err(error) => {
                 let why = io_reason(&error);
@@ -174,20 +173,21 @@ impl ChromascopeApp {
             }
             ReportOn::Paper => Report::new(Start::Paper.document(), false, PIXELS),
             ReportOn::Document => Report::of_document(self.history.document()),
+            ReportOn::Library => Report::of_library(),
         };
         self.later.begin(Report::NAME, ReportJob::all(&Arc::new(report), &folder));
     }
 
     pub(super) fn take_report(&mut self) {
         let report = self.later.seen::<ReportJob>(Report::NAME);
-        let Some(folder) = report.stages.first().map(|job| job.folder.clone()) else { return };
+        let Some(page) = report.stages.first().map(|job| job.folder.join(job.report.page())) else { return };
         let is_finished = report.done == report.stages.len();
         if let Err(why) = report.current().and_then(|made| made.map_or(Ok(()), |made| (*made).clone())) {
             self.later.stop::<ReportJob>(Report::NAME);
             self.view.fail(format!("The report is not finished. {why}"));
         } else if is_finished {
             self.later.stop::<ReportJob>(Report::NAME);
-            self.view.say(format!("Report saved: {}.", folder.join(PAGE).display()));
+            self.view.say(format!("Report saved: {}.", page.display()));
         }
     }
 

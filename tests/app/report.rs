@@ -295,6 +295,26 @@ fn a_report_of_the_window_is_whole() {
 }
 
 #[test]
+fn the_library_is_written_to_a_folder_with_a_descriptor_of_its_files() {
+    let parent = tempfile::tempdir().unwrap();
+    let executor = Executor::driven();
+    let mut window = begun_on(&executor, parent.path(), ReportOn::Library);
+    executor.run_all();
+    window.run_steps(2);
+    let folder = parent.path().join("Chromascope library");
+    let said = &window.state().view.status.text;
+    assert_eq!(*said, format!("Report saved: {}.", folder.join("datapackage.json").display()));
+    let text = std::fs::read_to_string(folder.join("datapackage.json")).unwrap();
+    let described: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let resources = described["resources"].as_array().unwrap();
+    assert!(resources.len() > 300);
+    for resource in resources {
+        let file = folder.join(resource["path"].as_str().unwrap());
+        assert_eq!(std::fs::metadata(&file).unwrap().len(), resource["bytes"].as_u64().unwrap(), "{}", file.display());
+    }
+}
+
+#[test]
 fn a_report_on_a_comparison_is_one_page_that_needs_no_other_file() {
     let parent = tempfile::tempdir().unwrap();
     let executor = Executor::driven();

@@ -24,6 +24,12 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
     write_atomically_with(path, |file| file.write_all(bytes))
 }
 
+/// Writes a file atomically, and makes the folders that it needs.
+pub fn write_with_folders(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    path.parent().map_or(Ok(()), fs::create_dir_all)?;
+    write_atomically(path, bytes)
+}
+
 /// Writes a file whole or not at all, as its contents are made.
 pub fn write_atomically_with(path: &Path, write: impl FnOnce(&mut dyn io::Write) -> io::Result<()>) -> io::Result<()> {
     if hosted::is_in_memory(path) {

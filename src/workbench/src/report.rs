@@ -25,11 +25,11 @@ pub use claim::{Claim, FURTHER, Find, Finding, Subject, Value, Verdict};
 pub use comparison::OwnMesh;
 pub use figures::{FIGURES, PaperFigure};
 
-use crate::atomic::write_atomically;
+use crate::atomic::write_with_folders;
 use crate::catalog::Catalog;
 use crate::document::start::Start;
 use crate::document::{Document, SetKind};
-use crate::export::{FigureForm, Paper};
+use crate::export::{FigureForm, Paper, package};
 use crate::format::io_reason;
 use crate::jobs::Job;
 use crate::results::Results;
@@ -124,6 +124,8 @@ enum On {
         mesh: OwnMesh,
         missing: Vec<String>,
     },
+    /// The built-in data sets.
+    Library,
 }
 
 impl Report {
@@ -153,6 +155,16 @@ impl Report {
         Self::on(document, On::Comparison { mesh, missing }, comparison::kinds().len(), pixels)
     }
 
+    /// The built-in data sets as files, with checksum, source and terms of each.
+    pub fn of_library() -> Self {
+        Self::on(Start::Paper.document(), On::Library, 0, PIXELS)
+    }
+
+    /// The file that shows or describes all others.
+    pub fn page(&self) -> &'static str {
+        if matches!(self.on, On::Library) { package::DESCRIPTOR } else { PAGE }
+    }
+
     pub fn steps(&self) -> usize {
         self.figures.len() + 1
     }
@@ -179,6 +191,7 @@ impl Report {
             On::Paper { .. } if step < FIGURES.len() => format!("Figure {}", FIGURES[step].number),
             On::Paper { .. } => "claims".to_owned(),
             On::Comparison { .. } => comparison::kinds().get(step).map_or("ranking", |kind| kind.key).to_owned(),
+            On::Library => "data sets".to_owned(),
         }
     }
 
@@ -195,6 +208,10 @@ impl Report {
         let subject = self.subject(results);
         if let On::Comparison { mesh, missing } = &self.on {
             return Ok(self.of_comparison(step, &subject.scene(&self.document), mesh, missing));
+        }
+        if matches!(self.on, On::Library) {
+            let files = package::package(&self.catalog, results).map_err(|error| error.to_string())?;
+            return Ok(files.into_iter().map(|(name, bytes)| ReportFile { name, bytes }).collect());
         }
         let Some(figure) = FIGURES.get(step) else { return Ok(self.claims_and_page(&subject)) };
         let made = figure.laid_out(&subject, &self.paper, self.pixels).ok_or_else(|| {
@@ -305,7 +322,7 @@ impl Job for ReportJob {
         let written = self.report.make(self.step, results).and_then(|files| {
             files.into_iter().take_while(|_| !results.stop().is_set()).try_for_each(|file| {
                 let path = self.folder.join(&file.name);
-                write_atomically(&path, &file.bytes)
+                write_with_folders(&path, &file.bytes)
                     .map_err(|error| format!("Cannot write {}: {}.", path.display(), io_reason(&error)))
             })
         });

@@ -13,7 +13,7 @@ use crate::document::SetKind;
 use crate::format::file_name;
 
 /// Describes all other files.
-const DESCRIPTOR: &str = "datapackage.json";
+pub const DESCRIPTOR: &str = "datapackage.json";
 
 /// Files of the package, each with its path in it: every set as CSV, cameras, observers and lights as rawtoaces JSON too, license texts,
 /// and last the descriptor.
