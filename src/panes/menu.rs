@@ -113,6 +113,7 @@ fn file(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.separator();
     item(ui, "Open…", Command::Open, context);
     item(ui, "Open folder…", Command::OpenFolder, context);
+    item(ui, "Measure a camera from a photograph", Command::GoTo(PaneKind::MEASURE), context);
     let recent = context.view.saved.recent.clone();
     if !recent.is_empty() {
         ui.menu_button("Open recent", |ui| {

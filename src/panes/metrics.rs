@@ -144,7 +144,8 @@ fn table(ranked: &Ranked, metric: Option<CameraMetric>, context: &PaneContext<'_
     }
     let ranks = metric.map_or_else(Vec::new, |metric| metrics::ranks(ranked, metric));
     let head = |name: &str, hint: &str| Column { hint: hint.to_owned(), ..Column::from(name) };
-    let by = "By the column that rows are sorted by. A range where values do not differ at 95 %.";
+    let by =
+        "By the column that rows are sorted by, among the cameras listed. A range where values do not differ at 95 %.";
     table.insert(1, head("rank", by), ranks.into_iter().map(rank_cell));
     metrics::insert_worst(&mut table, ranked, &context.scene, Some(3));
     let any = (0..ranked.cameras.len()).any(|camera| metrics::figures(ranked, camera).is_some());

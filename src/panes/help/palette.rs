@@ -215,6 +215,7 @@ fn panes(context: &PaneContext<'_>) -> Vec<Found> {
         let also = match pane.kind {
             PaneKind::LIGHT => "judge this light rendering index",
             PaneKind::METHODS => "numerics bench",
+            PaneKind::MEASURE => "photograph photo picture raw DNG chart profile DCP sensitivities",
             _ => "",
         };
         found.push(Found::new("Workspaces and panes", words, Command::GoTo(pane.kind)).on(on).also(also));
@@ -235,7 +236,10 @@ fn saves(context: &PaneContext<'_>) -> Vec<Found> {
     }
     for (on, words) in REPORTS {
         let words = format!("Report: {}{}", words[..1].to_lowercase(), &words[1..]);
-        found.push(Found::new("Save", words, Command::Report(on)).also("figures claims ranking export pdf html page"));
+        found.push(
+            Found::new("Save", words, Command::Report(on))
+                .also("figures claims ranking export pdf html page csv json license"),
+        );
     }
     for form in context.view.camera(&context.scene).map_or(&[][..], |_| &CorrectionForm::ALL) {
         let (words, hint) = form.words();

@@ -153,11 +153,12 @@ impl<'a> DataTable<'a> {
 
     /// Moves along the rows with the keyboard, if the pane has it and no control does. Returns the row to scroll to.
     fn keys(&self, ui: &Ui, look: &mut TableLook, body: &mut Body<'_>, context: &mut PaneContext<'_>) -> Option<usize> {
+        let now = body.current(look);
         let followed = look.seen != context.view.selected;
-        if followed {
+        // A row that is still computed is followed when it is there.
+        if followed && (now.is_some() || context.view.selected.is_none()) {
             look.seen.clone_from(&context.view.selected);
         }
-        let now = body.current(look);
         let has_keys = context.view.focused == Some(self.pane)
             && ui.memory(|memory| memory.focused().is_none())
             && !egui::Popup::is_any_open(ui.ctx());
