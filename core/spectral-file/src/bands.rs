@@ -111,6 +111,7 @@ pub(super) fn groups(dialect: Dialect, line: &str) -> Vec<Group> {
     let mut bands: Vec<(usize, Band<'_>)> = Vec::new();
     for (column, cell) in dialect.cells(line).take(MAX_CURVES + 2).enumerate() {
         let mut band = head(dialect, cell);
+        let is_known = band.is_some_and(|band| band.is_known());
         // `lambda=400.5 404.8 …`: the name of the list stands before its first number.
         if let Some(first) = &mut band
             && first.prefix.ends_with('=')
@@ -118,11 +119,7 @@ pub(super) fn groups(dialect: Dialect, line: &str) -> Vec<Group> {
         {
             first.prefix = "";
         }
-        if bands.is_empty()
-            && has_letter(cell)
-            && header_terms::names_wavelengths(cell)
-            && !band.is_some_and(|band| band.is_known())
-        {
+        if bands.is_empty() && has_letter(cell) && header_terms::names_wavelengths(cell) && !is_known {
             named = true;
             stated = header_terms::x_unit(cell)
                 .and_then(|unit| if let XUnit::Wavelength(unit) = unit { Some(unit) } else { None });

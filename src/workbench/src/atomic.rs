@@ -24,10 +24,12 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
     write_atomically_with(path, |file| file.write_all(bytes))
 }
 
-/// Writes a file atomically, and makes the folders that it needs.
-pub fn write_with_folders(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    path.parent().map_or(Ok(()), fs::create_dir_all)?;
-    write_atomically(path, bytes)
+/// Writes a file below a folder atomically; the folder that its name begins with, if any, is made.
+pub fn write_below(folder: &Path, name: &str, bytes: &[u8]) -> io::Result<()> {
+    let path = folder.join(name);
+    let made = path.parent().filter(|own| *own != folder).map_or(Ok(()), fs::create_dir);
+    made.or_else(|error| if error.kind() == io::ErrorKind::AlreadyExists { Ok(()) } else { Err(error) })?;
+    write_atomically(&path, bytes)
 }
 
 /// Writes a file whole or not at all, as its contents are made.

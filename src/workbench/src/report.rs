@@ -25,7 +25,7 @@ pub use claim::{Claim, FURTHER, Find, Finding, Subject, Value, Verdict};
 pub use comparison::OwnMesh;
 pub use figures::{FIGURES, PaperFigure};
 
-use crate::atomic::write_with_folders;
+use crate::atomic::write_below;
 use crate::catalog::Catalog;
 use crate::document::start::Start;
 use crate::document::{Document, SetKind};
@@ -321,9 +321,9 @@ impl Job for ReportJob {
     fn run(&self, results: &Results) -> Arc<Self::Answer> {
         let written = self.report.make(self.step, results).and_then(|files| {
             files.into_iter().take_while(|_| !results.stop().is_set()).try_for_each(|file| {
-                let path = self.folder.join(&file.name);
-                write_with_folders(&path, &file.bytes)
-                    .map_err(|error| format!("Cannot write {}: {}.", path.display(), io_reason(&error)))
+                let fail =
+                    |error| format!("Cannot write {}: {}.", self.folder.join(&file.name).display(), io_reason(&error));
+                write_below(&self.folder, &file.name, &file.bytes).map_err(fail)
             })
         });
         Arc::new(written)
