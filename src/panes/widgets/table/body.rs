@@ -253,6 +253,12 @@ impl<'a> Body<'a> {
         let written = if self.of.ragged { written.trim_end() } else { &written };
         let mut place = rect;
         place.max.x -= layout.uncertainty;
+        let seen = ui.clip_rect();
+        if place.right() > seen.right() + 1.0 {
+            // Part of a number would be read as another.
+            lines::elided(ui, place.intersect(seen), "…", TextStyle::Small, self.theme.weak);
+            return;
+        }
         if layout.form == Form::Text {
             lines::elided(ui, place, written, TextStyle::Monospace, ink);
         } else {
@@ -260,7 +266,7 @@ impl<'a> Body<'a> {
         }
         let Some(behind) = note.behind() else { return };
         place = rect.with_min_x(place.max.x + UNIT);
-        lines::elided(ui, place, &behind, TextStyle::Small, self.theme.weak);
+        lines::elided(ui, place.intersect(seen), &behind, TextStyle::Small, self.theme.weak);
     }
 }
 

@@ -43,7 +43,7 @@ fn minimum(scene: &Scene<'_>, source: &ComparedSensor) -> Option<(f64, LocusDevi
 }
 
 /// A value at its square root, on its side of 0.
-fn root(value: f64) -> f64 {
+pub(in crate::figures) fn root(value: f64) -> f64 {
     value.abs().sqrt().copysign(value)
 }
 
