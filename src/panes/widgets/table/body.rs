@@ -253,10 +253,10 @@ impl<'a> Body<'a> {
         let written = if self.of.ragged { written.trim_end() } else { &written };
         let mut place = rect;
         place.max.x -= layout.uncertainty;
-        let seen = ui.clip_rect();
-        if place.right() > seen.right() + 1.0 {
+        let edge = ui.clip_rect().right();
+        if place.right() > edge + 1.0 {
             // Part of a number would be read as another.
-            lines::elided(ui, place.intersect(seen), "…", TextStyle::Small, self.theme.weak);
+            lines::elided(ui, place.with_max_x(edge), "…", TextStyle::Small, self.theme.weak);
             return;
         }
         if layout.form == Form::Text {
@@ -266,7 +266,7 @@ impl<'a> Body<'a> {
         }
         let Some(behind) = note.behind() else { return };
         place = rect.with_min_x(place.max.x + UNIT);
-        lines::elided(ui, place.intersect(seen), &behind, TextStyle::Small, self.theme.weak);
+        lines::elided(ui, place.with_max_x(place.right().min(edge)), &behind, TextStyle::Small, self.theme.weak);
     }
 }
 
@@ -419,7 +419,9 @@ impl Body<'_> {
                 }
                 false
             }
-            CellValue::Text(text) => lines::name(ui, rect, text, style, ink),
+            CellValue::Text(text) => {
+                lines::name(ui, rect.with_max_x(rect.right().min(ui.clip_rect().right())), text, style, ink)
+            }
             CellValue::Nothing if layout.form == Form::Text => lines::elided(ui, rect, "–", style, self.theme.weak),
             CellValue::Nothing => {
                 let mut place = rect;

@@ -9,7 +9,6 @@ use chromascope_figure::{
 };
 
 use super::chromaticity::{self, distance_symbol, id, sign};
-use super::differences::loci::root;
 use super::kind::FigureKind;
 use super::look::FigureLook;
 use crate::document::{Diagram, LOCUS_RANGE_K, SetKind};
@@ -89,6 +88,11 @@ pub fn build(scene: &Scene<'_>, size: [f64; 2]) -> Option<Strip> {
     labels.place(&just_visible);
     panel.marks.extend(labels.into_marks());
     Some(Strip { panel, things })
+}
+
+/// A value at its square root, on its side of 0.
+pub(super) fn root(value: f64) -> f64 {
+    value.abs().sqrt().copysign(value)
 }
 
 /// The temperatures of loci, evenly in mired, cold at the left.
