@@ -401,6 +401,7 @@ impl Body<'_> {
         let (layout, cell) = (self.layouts[column], self.of.table.cell(row, column));
         let whole = ui.max_rect();
         let rect = self.inner(whole);
+        let edge = rect.right().min(ui.clip_rect().right());
         if let Some(drawn) = self.of.drawn.filter(|drawn| drawn.column == column) {
             return (drawn.draw)(ui.painter(), whole.shrink2(Vec2::new(UNIT, 2.0)), row);
         }
@@ -419,9 +420,7 @@ impl Body<'_> {
                 }
                 false
             }
-            CellValue::Text(text) => {
-                lines::name(ui, rect.with_max_x(rect.right().min(ui.clip_rect().right())), text, style, ink)
-            }
+            CellValue::Text(text) => lines::name(ui, rect.with_max_x(edge), text, style, ink),
             CellValue::Nothing if layout.form == Form::Text => lines::elided(ui, rect, "–", style, self.theme.weak),
             CellValue::Nothing => {
                 let mut place = rect;
