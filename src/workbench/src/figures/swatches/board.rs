@@ -329,7 +329,7 @@ impl<'a> Board<'a> {
         }
         match note {
             Note::Beside | Note::Close => self.marks.push(small(&words, [x1, middle], Anchor::RIGHT)),
-            Note::Above => self.marks.push(small(&words, [x0, y0 + 0.5 * NUMBER + 1.0], Anchor::LEFT)),
+            Note::Above => self.marks.push(small(&words, [x0, y0 + 0.5 * NUMBER], Anchor::LEFT)),
             Note::Bar | Note::None => {}
         }
     }
