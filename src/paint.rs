@@ -8,8 +8,8 @@ mod marks;
 mod pictures;
 
 use chromascope_figure::{
-    Anchor, Annotation, Ink, InkRole, Mark, Panel, Projection, Rect as Area, Shape, Tag, TextSize, Tick, Ticks,
-    annotations, fit_equal,
+    Anchor, Annotation, Ink, InkRole, Mark, Panel, Projection, Rect as Area, Shape, Tag, TextSize, Tick, annotations,
+    fit_equal,
 };
 use egui::{Id, Painter, Pos2, Rect, Response, Sense, Stroke, StrokeKind, Ui, Vec2};
 use egui_plot::{Plot, PlotUi};
@@ -154,8 +154,8 @@ fn named(response: Response, panel: &Panel) -> Response {
 
 /// The plot inside the box that also holds the tick labels.
 fn plot_rect(panel: &Panel, rect: Rect) -> Rect {
-    let left = if panel.y.ticks == Ticks::None { 0.0 } else { Projection::LEFT as f32 };
     let bottom = Projection::bottom(&panel.x) as f32;
+    let left = Projection::left(panel, panel.y.proper_range(), f64::from(rect.height() - bottom), 1.0) as f32;
     let max = Pos2::new(rect.right() - 1.0, rect.bottom() - bottom.max(1.0));
     Rect::from_min_max(rect.min + Vec2::new(left.max(1.0), 1.0), max.max(rect.min + Vec2::splat(2.0)))
 }

@@ -4,9 +4,13 @@ use std::borrow::Cow;
 
 use chromascope::catalog::Catalog;
 use chromascope::document::{Diagram, Document, SetKind};
+use chromascope::export::Paper;
 use chromascope::figures::chromaticity::shown::{DiagramFit, DiagramView, Fit, FitKey};
+use chromascope::figures::kind::FigureKind;
+use chromascope::figures::look::FigureLook;
 use chromascope::figures::render::headline::{Detail, Measure};
 use chromascope::figures::render::returned::{self, Words};
+use chromascope::figures::{differences, strip};
 use chromascope::plot_item::SensorId;
 use chromascope::profiler::plans::ErrorBounds;
 use chromascope::results::Results;
@@ -172,4 +176,21 @@ fn nothing_is_an_order_to_the_terminal() {
     assert_eq!(shown("a\u{9b}2Jb\rc\u{7f}"), "a\\u{9b}2Jb\\u{d}c\\u{7f}");
     assert_eq!(shown("\u{202e}gpj.exe\u{2066}"), "\\u{202e}gpj.exe\\u{2066}");
     assert!(matches!(shown("two lines\n\twith \u{394}E\u{2a}\n"), Cow::Borrowed(_)));
+}
+
+#[test]
+fn ends_of_axes_are_numbers_written_there_and_short_names_are_told() {
+    let (document, catalog, results) = (Document::colorimetry(), Catalog::built_in(), Results::default());
+    let scene = Scene { document: &document, catalog: &catalog, results: &results };
+    let printed = |kind: &FigureKind, x_range, y_range| {
+        let paper = Paper { width_mm: Some(85.0), x_range, y_range, ..Paper::default() };
+        kind.on_paper(&paper, &scene, &FigureLook::default()).unwrap()
+    };
+    for kelvin in [[2000.0, 20_000.0], [2.0, 20.0]] {
+        let strip = printed(&strip::KIND, kelvin, [0.0, 0.04]);
+        let plot = strip.panels.iter().find(|panel| panel.framed).unwrap();
+        assert_eq!([plot.x.range, plot.y.range], [[500.0, 50.0], [0.0, 0.2]]);
+    }
+    let differences = printed(&differences::KIND, [0.0; 2], [0.0; 2]);
+    assert!(differences.caption.contains(" 5D II: Canon EOS 5D Mark II; D70: Nikon D70"), "{}", differences.caption);
 }

@@ -74,7 +74,8 @@ impl Projection {
         Self { plot, x, y, x_ticks, y_ticks }
     }
 
-    fn left(panel: &Panel, y: [f64; 2], height: f64, text_scale: f64) -> f64 {
+    /// Room for the tick labels of a vertical axis of a height, in points.
+    pub fn left(panel: &Panel, y: [f64; 2], height: f64, text_scale: f64) -> f64 {
         if panel.y.ticks == Ticks::None {
             return 0.0;
         }

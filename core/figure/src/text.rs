@@ -32,6 +32,11 @@ fn advance(c: char) -> f64 {
     }
 }
 
+/// True for a unit, or for an observer's field, that follows a number.
+fn is_unit(word: &str) -> bool {
+    ["K", "µm", "nm", "%", "2°", "10°"].contains(&word.trim_end_matches(['.', ',', ';', ')']))
+}
+
 /// Breaks text at spaces into lines not wider than `width` points, unless a single word is.
 pub fn wrapped(text: &str, size: TextSize, width: f64) -> Vec<String> {
     let mut lines = Vec::new();
@@ -42,7 +47,10 @@ pub fn wrapped(text: &str, size: TextSize, width: f64) -> Vec<String> {
             if line.is_empty() || text_width(&longer, size) <= width {
                 line = longer;
             } else {
-                lines.push(std::mem::replace(&mut line, word.to_owned()));
+                // A unit stays with its number.
+                let at = line.rfind(' ').filter(|at| is_unit(word) && line[at + 1..].parse::<f64>().is_ok());
+                let next = at.map_or(word.to_owned(), |at| format!("{} {word}", line.split_off(at).trim_start()));
+                lines.push(std::mem::replace(&mut line, next));
             }
         }
         if !line.is_empty() {

@@ -38,10 +38,11 @@ impl RenderedFrame {
     /// Samples along the side of a pixel of pictures that are made at once.
     const SAMPLES: u32 = 2;
 
-    /// Square pictures of a mesh through a scene's sensors, made at once, with this many pixels along a side.
-    pub fn of_mesh(scene: &Scene<'_>, mesh: MeshQuery, viewpoint: Viewpoint, side: u32) -> Result<Self, SceneError> {
+    /// Pictures of a mesh through a scene's sensors for a page, made at once, so many pixels wide.
+    pub fn of_mesh(scene: &Scene<'_>, mesh: MeshQuery, viewpoint: Viewpoint, width: u32) -> Result<Self, SceneError> {
         let sources = scene.rendered_sources();
-        let size = RasterSize { width: side, height: side, samples: Self::SAMPLES }.clamped();
+        let height = (f64::from(width) / scene.document.render.aspect()).round() as u32;
+        let size = RasterSize { width, height, samples: Self::SAMPLES }.clamped();
         let finish = Finish::whole(size, scene.document.render.quality());
         let query = scene.pictures_of(&sources, mesh, viewpoint, finish, None)?;
         let answer = Arc::new(PicturesAnswer::Mesh(scene.results.ask(&query)));

@@ -253,6 +253,12 @@ impl<'a> Body<'a> {
         let written = if self.of.ragged { written.trim_end() } else { &written };
         let mut place = rect;
         place.max.x -= layout.uncertainty;
+        let edge = ui.clip_rect().right();
+        if place.right() > edge + 1.0 {
+            // Part of a number would be read as another.
+            lines::elided(ui, place.with_max_x(edge), "…", TextStyle::Small, self.theme.weak);
+            return;
+        }
         if layout.form == Form::Text {
             lines::elided(ui, place, written, TextStyle::Monospace, ink);
         } else {
@@ -260,7 +266,7 @@ impl<'a> Body<'a> {
         }
         let Some(behind) = note.behind() else { return };
         place = rect.with_min_x(place.max.x + UNIT);
-        lines::elided(ui, place, &behind, TextStyle::Small, self.theme.weak);
+        lines::elided(ui, place.with_max_x(place.right().min(edge)), &behind, TextStyle::Small, self.theme.weak);
     }
 }
 
@@ -395,6 +401,7 @@ impl Body<'_> {
         let (layout, cell) = (self.layouts[column], self.of.table.cell(row, column));
         let whole = ui.max_rect();
         let rect = self.inner(whole);
+        let edge = rect.right().min(ui.clip_rect().right());
         if let Some(drawn) = self.of.drawn.filter(|drawn| drawn.column == column) {
             return (drawn.draw)(ui.painter(), whole.shrink2(Vec2::new(UNIT, 2.0)), row);
         }
@@ -413,7 +420,7 @@ impl Body<'_> {
                 }
                 false
             }
-            CellValue::Text(text) => lines::name(ui, rect, text, style, ink),
+            CellValue::Text(text) => lines::name(ui, rect.with_max_x(edge), text, style, ink),
             CellValue::Nothing if layout.form == Form::Text => lines::elided(ui, rect, "–", style, self.theme.weak),
             CellValue::Nothing => {
                 let mut place = rect;

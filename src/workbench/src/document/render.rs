@@ -230,6 +230,12 @@ impl RenderSettings {
         self.worn().map_or_else(|| self.material.clone(), |garment| format!("{}, garment: {garment}", self.material))
     }
 
+    /// Width over height of a picture on a page: a head with its chart, and the fern, are wider than high.
+    pub fn aspect(&self) -> f64 {
+        let is_wide = self.composed && matches!(self.mesh, MeshChoice::Head | MeshChoice::Fern);
+        if is_wide { 4.0 / 3.0 } else { 1.0 }
+    }
+
     pub fn quality(&self) -> Quality {
         // Outside the range only until the session is validated.
         RelTolerance::new(self.tolerance).map_or(Quality::Reference, |tolerance| self.quality.quality(tolerance))

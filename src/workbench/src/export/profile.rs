@@ -271,7 +271,7 @@ impl CorrectionFile {
 }
 
 /// The fit of the ACES input transform in words, where its errors stand beside those of the other matrices.
-const IDT_FIT: &str = "Another fit than of DCP and ICC, to ACES: least squares in L*a*b* over 190 reflectances, CAT02";
+const IDT_FIT: &str = "Another fit than of DCP and ICC, to ACES:\nleast squares in L*a*b*, CAT02,\n190 reflectances";
 
 /// Checks that a channel ratio is credible, or a neutral is given in its place.
 pub fn has_ratio(

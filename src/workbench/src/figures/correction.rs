@@ -36,6 +36,7 @@ const CURVES: [Curve; 4] = [
 
 pub static KIND: FigureKind =
     FigureKind::new("correction", "Error of a correction between its two lights; needs a second light", figure)
+        .over_mired(|number| number)
         .needing(Need::Correction);
 
 fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {

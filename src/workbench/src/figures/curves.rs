@@ -158,6 +158,8 @@ fn figure(_: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> 
     let mut figure = Figure::new(title(&curves), size);
     let mut panel = panel(&drawn, size, None);
     panel.name.clone_from(&curves.title);
+    // No band of visible wavelengths on paper, which no caption explains.
+    panel.marks.retain(|mark| !matches!(mark.shape, Shape::Rect { .. }));
     figure.panels.push(panel);
     // Channels have their letters at the curves.
     let has_letters = drawn.drawn.iter().all(|curve| curve.channel.is_some());

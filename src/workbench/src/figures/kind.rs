@@ -1,6 +1,6 @@
 //! A kind of figure: the same for pane, command line and report.
 
-use chromascope_figure::{AxisRanges, Figure, FigureRoom};
+use chromascope_figure::{AxisRanges, Figure, FigureRoom, Shape};
 
 use super::look::{FigureLook, RenderMode};
 use crate::export::Paper;
@@ -20,6 +20,8 @@ pub struct FigureKind {
     pub is_of_metrics: bool,
     /// True if it is part of a report on a comparison.
     pub is_reported: bool,
+    /// Values on the axes of numbers that are written there.
+    scales: [fn(f64) -> f64; 2],
     draw: Draw,
 }
 
@@ -39,11 +41,17 @@ pub enum Need {
 
 impl FigureKind {
     pub(super) const fn new(key: &'static str, help: &'static str, draw: Draw) -> Self {
-        Self { key, help, needs: Need::Nothing, is_of_metrics: false, is_reported: false, draw }
+        Self { key, help, needs: Need::Nothing, is_of_metrics: false, is_reported: false, scales: [|v| v; 2], draw }
     }
 
     pub(super) const fn needing(self, needs: Need) -> Self {
         Self { needs, ..self }
+    }
+
+    /// With temperatures along x, and the numbers of y on another scale.
+    pub(super) const fn over_mired(self, y: fn(f64) -> f64) -> Self {
+        let x = |kelvin: f64| 1e6 / (if kelvin < 1e3 { 1e3 * kelvin } else { kelvin }).max(1.0);
+        Self { scales: [x, y], ..self }
     }
 
     pub(super) const fn of_metrics(self) -> Self {
@@ -60,8 +68,10 @@ impl FigureKind {
         let own = figure.panels.iter().find(|panel| panel.framed).map(|panel| [panel.x.range, panel.y.range]);
         let Some(own) = own.filter(|_| room.limits.iter().any(|[from, to]| from != to)) else { return Some(figure) };
         // The diagram is drawn anew for its ranges, so that its labels find their places.
-        let ranges =
-            [0, 1].map(|axis| if room.limits[axis][0] == room.limits[axis][1] { own[axis] } else { room.limits[axis] });
+        let ranges = [0, 1].map(|axis| match room.limits[axis] {
+            [from, to] if from == to => own[axis],
+            limits => limits.map(self.scales[axis]),
+        });
         let mut look = look.clone();
         look.diagram.zoomed = Some(ranges);
         let mut figure = self.zoomed(scene, &look, FigureRoom { ranges: AxisRanges::Screen, ..room })?;
@@ -78,6 +88,7 @@ impl FigureKind {
     /// The figure in the ranges that the window's plot is zoomed to.
     fn zoomed(&self, scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
         let mut figure = (self.draw)(scene, look, room)?;
+        figure.caption += &full_names(scene, &figure);
         let zoom = look.zoom.as_ref().filter(|(title, _)| room.ranges == AxisRanges::Screen && *title == figure.title);
         if let Some(((_, [x, y]), panel)) = zoom.zip(figure.panels.first_mut()) {
             (panel.x.range, panel.y.range) = (*x, *y);
@@ -89,4 +100,14 @@ impl FigureKind {
     pub fn on_paper(&self, paper: &Paper, scene: &Scene<'_>, look: &FigureLook) -> Option<Figure> {
         paper.laid_out(|room| self.figure(scene, look, room))
     }
+}
+
+/// Names of sensors that a figure shows in short and no legend in full, in a sentence.
+fn full_names(scene: &Scene<'_>, figure: &Figure) -> String {
+    let marks = figure.panels.iter().flat_map(|panel| &panel.marks).filter(|_| figure.legend.is_empty());
+    let is_written =
+        |name: &str| marks.clone().any(|mark| matches!(&mark.shape, Shape::Text { text, .. } if text == name));
+    let short = scene.visible_sources().into_iter().filter(|of| of.short != of.label && is_written(&of.short));
+    let names: Vec<String> = short.map(|of| format!("{}: {}", of.short, of.label)).collect();
+    if names.is_empty() { String::new() } else { format!(" {}.", names.join("; ")) }
 }

@@ -147,6 +147,9 @@ impl<'a> PictureCell<'a> {
     fn new(shot: &'a RenderedFrame, at: usize, is_map: bool, width: f64) -> Self {
         let source = &shot.sources[at];
         let label = if source.is_reference { format!("Reference, {}", source.label) } else { source.label.clone() };
+        let is_long =
+            |of: &ComparedSensor| !of.is_reference && text_width(&of.label, TextSize::Small) + Self::KEY > width;
+        let by_short = shot.sources.iter().any(is_long);
         // Maps are of the differences as they are.
         let exaggerated = shot.query.exaggeration().note().filter(|_| !is_map && !source.is_reference);
         let named = |name: &str| exaggerated.as_ref().map_or(name.to_owned(), |note| format!("{name}, {note}"));
@@ -159,11 +162,12 @@ impl<'a> PictureCell<'a> {
         let note = if is_short { words(Detail::Metric).unwrap_or_default() } else { all };
         let both = text_width(&label, TextSize::Body) + text_width(&note, TextSize::Body) + Self::KEY + 2.0 * GAP;
         let lines = |text: &str, size, room| wrapped(text, size, room).into_iter().map(move |line| (line, size));
-        if both <= width {
+        if both <= width && !by_short {
             return Self { at, source, lines: vec![(label.clone(), TextSize::Body)], named: 1, label, note, is_short };
         }
         let fits = |form: &&str| text_width(form, TextSize::Small) + Self::KEY <= width;
-        let forms = if source.is_reference { ["Reference"; 2] } else { [label.as_str(), short.as_str()] };
+        let first = if by_short { &short } else { &label };
+        let forms = if source.is_reference { ["Reference"; 2] } else { [first.as_str(), short.as_str()] };
         let short = forms.into_iter().find(fits).unwrap_or(forms[1]);
         let name: Vec<_> = lines(short, TextSize::Small, width - Self::KEY).collect();
         let named = name.len();

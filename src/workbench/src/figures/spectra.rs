@@ -103,7 +103,7 @@ fn panel(content: Content, area: Rect, large: bool) -> Panel {
     let name = format!("{}, {}", content.quantity, content.note);
     let panel = Panel { note: content.note, marks: content.marks, ..Panel::new(name, area, x, axis) };
     // Names stand above curves, below the title and the note.
-    let mut panel = panel.with_headroom(if content.names.is_empty() { 0.0 } else { 17.0 });
+    let mut panel = panel.with_headroom(if content.names.is_empty() { 3.0 } else { 17.0 });
     panel.marks.splice(..0, hundreds(panel.y.range));
     let written = |names: &[Name]| {
         let mut labels = Labels::new(&panel);

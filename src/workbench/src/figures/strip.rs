@@ -57,7 +57,8 @@ pub fn build(scene: &Scene<'_>, size: [f64; 2]) -> Option<Strip> {
     let highest = content.top.clamp(1e-6, LARGEST).sqrt();
     let x = temperature_axis();
     let [cold, hot] = x.range;
-    let y = Axis::new("", [0.0, highest]).with_ticks(Ticks::At(height_ticks(highest * highest))).with_grid(true);
+    // Rings of minima at zero lie within the frame.
+    let y = Axis::new("", [-0.05 * highest, highest]).with_ticks(Ticks::At(height_ticks(highest * highest)));
     let mut panel =
         Panel::new("Distance to the reference over temperature", Rect::from_min_size([0.0, 0.0], size), x, y);
     panel.note = note;
@@ -89,6 +90,11 @@ pub fn build(scene: &Scene<'_>, size: [f64; 2]) -> Option<Strip> {
     Some(Strip { panel, things })
 }
 
+/// A value at its square root, on its side of 0.
+pub(super) fn root(value: f64) -> f64 {
+    value.abs().sqrt().copysign(value)
+}
+
 /// The temperatures of loci, evenly in mired, cold at the left.
 pub(super) fn temperature_axis() -> Axis {
     let ticks = TICKS.iter().map(|thousands| (1e3 / thousands, thousands.to_string())).collect();
@@ -99,7 +105,7 @@ pub(super) fn temperature_axis() -> Axis {
 const SIZE: [f64; 2] = [640.0, 170.0];
 
 pub static KIND: FigureKind =
-    FigureKind::new("strip", "Distance of each locus to the reference's over temperature", figure);
+    FigureKind::new("strip", "Distance of each locus to the reference's over temperature", figure).over_mired(root);
 
 /// The strip as a figure of its own, with its numbers; none where no sensor can be compared with the reference.
 fn figure(scene: &Scene<'_>, _: &FigureLook, room: FigureRoom) -> Option<Figure> {

@@ -36,8 +36,11 @@ pub(super) fn panels(rows: &[Row], title: &str, width: f64, with_zero: bool) -> 
     let pad = 0.05 * (high - low).max(1e-9);
     let range = [low - pad, high + pad];
     let across = (width - left - right).max(LEAST);
-    // Twice as many as on screen: a narrow plot would have one number.
-    let ticks = auto_ticks(range, 2.0 * across).into_iter().map(|tick| (tick.value, tick.label)).collect();
+    // Twice as many as on screen: a narrow plot would have one number. None is moved inward, where another one belongs.
+    let mut ticks = auto_ticks(range, 2.0 * across);
+    let half = |label: &str| 0.5 * text_width(label, TextSize::Small) * (range[1] - range[0]) / across;
+    ticks.retain(|tick| (tick.value - range[0]).min(range[1] - tick.value) >= half(&tick.label));
+    let ticks = ticks.into_iter().map(|tick| (tick.value, tick.label)).collect();
     let x = Axis::new(title, range).with_ticks(Ticks::At(ticks));
     let count = rows.len() as f64;
     let size = [across, count * ROW + Projection::bottom(&x)];

@@ -138,7 +138,7 @@ fn materials(subject: &Subject<'_>, room: FigureRoom, _: Pixels) -> Option<Figur
 
 /// Pictures of the document's mesh, a file's mesh being `own`.
 pub(super) fn frame(scene: &Scene<'_>, own: Option<&Shared<Mesh>>, pixels: Pixels) -> Result<RenderedFrame, String> {
-    let viewpoint = Orbit::of(&scene.document.render).viewpoint(1.0);
+    let viewpoint = Orbit::of(&scene.document.render).viewpoint(scene.document.render.aspect());
     let (mesh, viewpoint) = scene.mesh_of(own).zip(viewpoint).ok_or("its mesh is not read")?;
     RenderedFrame::of_mesh(scene, mesh, viewpoint, pixels).map_err(|error| error.to_string())
 }

@@ -101,7 +101,7 @@ fn pictures(scene: &Scene<'_>, mode: RenderMode, paper: &Paper, wanted: Viewpoin
     } else {
         let own = own_mesh(&scene.document.render.mesh)?;
         let mesh = scene.mesh_of(own.as_ref()).ok_or_else(|| CliError::File("no mesh".to_owned()))?;
-        let viewpoint = viewpoint(wanted, Orbit::of(&scene.document.render), 1.0)?;
+        let viewpoint = viewpoint(wanted, Orbit::of(&scene.document.render), scene.document.render.aspect())?;
         let frame = RenderedFrame::of_mesh(scene, mesh, viewpoint, side)?;
         RenderedFrame { time: start.elapsed(), ..frame }
     };

@@ -42,11 +42,6 @@ fn minimum(scene: &Scene<'_>, source: &ComparedSensor) -> Option<(f64, LocusDevi
     Some((nearest.kelvin, offsets(scene, source, at)?.first()?.1?))
 }
 
-/// A value at its square root, on its side of 0.
-fn root(value: f64) -> f64 {
-    value.abs().sqrt().copysign(value)
-}
-
 pub(super) fn build(scene: &Scene<'_>, size: [f64; 2]) -> Result<Built, String> {
     let factor = scene.document.exaggeration.factor();
     let all: Vec<_> = sources(scene)?
@@ -73,7 +68,9 @@ pub(super) fn build(scene: &Scene<'_>, size: [f64; 2]) -> Result<Built, String> 
             let below = (at > 0.0).then(|| (-at, format!("−{words}")));
             below.into_iter().chain([(at, words.to_owned())])
         });
-        let y = Axis::new(part, [-root(top), root(top)]).with_ticks(Ticks::At(ticks.collect())).with_grid(true);
+        let y = Axis::new(part, [-strip::root(top), strip::root(top)])
+            .with_ticks(Ticks::At(ticks.collect()))
+            .with_grid(true);
         let mut x = strip::temperature_axis();
         if panels.is_empty() {
             x.label.clear();
@@ -86,7 +83,7 @@ pub(super) fn build(scene: &Scene<'_>, size: [f64; 2]) -> Result<Built, String> 
         let mut labels = Vec::new();
         for (index, (offsets, source)) in all.iter().enumerate() {
             let tag = things.tag(PlotItem::Sensor(id(source)));
-            let height = |offset: &LocusDeviation| value(offset).map_or(f64::NAN, |value| root(factor * value));
+            let height = |offset: &LocusDeviation| value(offset).map_or(f64::NAN, |value| strip::root(factor * value));
             let point = |(kelvin, offset): &(Kelvin, Option<LocusDeviation>)| match offset {
                 Some(offset) => [kelvin.mired(), height(offset)],
                 None => [f64::NAN; 2],

@@ -425,9 +425,11 @@ impl<'a> Heads<'a> {
         let words = self.statistics(index, one, self.form);
         let beside = text_width(&words, TextSize::Small) + Self::AIR;
         let room = if self.is_below() || words.is_empty() { width } else { width - beside };
-        let fits = |name: &str| Self::KEY + text_width(name, TextSize::Body) <= room;
-        let name = cut_in_middle(Self::name(one, self.is_short), fits);
-        let name = Mark::text(name, [corner[0] + Self::KEY, middle], Anchor::LEFT, TextSize::Body, InkRole::Text);
+        let in_size = |name: &str, size| Self::KEY + text_width(name, size) <= room;
+        let name = Self::name(one, self.is_short);
+        let size = if in_size(name, TextSize::Body) { TextSize::Body } else { TextSize::Small };
+        let name = cut_in_middle(name, |name| in_size(name, size));
+        let name = Mark::text(name, [corner[0] + Self::KEY, middle], Anchor::LEFT, size, InkRole::Text);
         panel.marks.push(Mark { tag, ..name });
         let (at, anchor) = if self.is_below() {
             ([corner[0], corner[1] + HEAD + 0.4 * LINE], Anchor::LEFT)
@@ -543,7 +545,7 @@ pub(super) fn words(scene: &Scene<'_>, plane: DifferencePlane, size: [f64; 2]) -
     let all = compared(scene, plane).map_or_else(|_| Vec::new(), |(_, all)| all);
     let frame = Frame::of(scene, &all, plane, size);
     let heads = Heads::new(scene, &frame, &all, plane);
-    let numbers = if heads.form > 1 && heads.form != 4 { " Numbers: mean length of the arrows." } else { "" };
+    let numbers = if matches!(heads.form, 2 | 3 | 5) { " Numbers: mean length of the arrows." } else { "" };
     let hue = if heads.form < 5 { ", its hue in words" } else { "" };
     let step = number(frame.step());
     let [x, y, _] = axes(plane).0;

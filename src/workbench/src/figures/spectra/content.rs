@@ -134,7 +134,7 @@ pub(super) fn sensitivities(
                 continue;
             }
             let least = spectrum.values().iter().copied().fold(0.0, f64::min);
-            low = low.min(1.1 * least / peak);
+            low = low.min(1.1 * least / peak - 0.03);
             let width = if source.is_reference { 3.0 } else { source.width };
             let band = |of| banded(built, &name, spectrum, (peak, source.role.into()), (of, c));
             marks.splice(0..0, stated.as_ref().and_then(band));

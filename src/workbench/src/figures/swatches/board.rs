@@ -386,7 +386,7 @@ fn chart_cell(charts: usize, columns: usize, lines: usize, size: [f64; 2], least
     let narrow = (least[0] - 4.0 - LEAST_TRACK).max(LEAST_ABOVE.min(least[0]));
     let above = [narrow, LEAST_COLOR + Note::Above.height()];
     // On paper, where nothing scrolls, the board is higher instead.
-    let bars = Some([least[0].min(16.0), Note::Bar.height() + LEAST_COLOR]).filter(|_| size[0] >= NARROW);
+    let bars = Some([least[0].min(16.0), Note::Bar.height() + LEAST_COLOR - 2.0]).filter(|_| size[0] >= NARROW);
     let largest =
         [least, above].into_iter().chain(bars).find_map(|least| largest_cell(charts, [columns, lines], size, least));
     largest.unwrap_or_else(|| {
