@@ -2,6 +2,7 @@
 
 mod commands;
 mod frame;
+mod measuring;
 mod opening;
 mod path_prompt;
 mod saving;

@@ -8,11 +8,9 @@ use chromascope_core::query::Shared;
 
 use super::ChromascopeApp;
 use crate::action::{Action, ImportedAction, RenderAction};
-use crate::catalog::chart_picture::is_picture;
 use crate::catalog::import::{Imported, imported};
 use crate::catalog::likeness::Likeness;
 use crate::catalog::opened::{CLIPBOARD, OpenFile, OpenedEvent, Request, Why};
-use crate::catalog::spectral_images::is_spectral_exr;
 use crate::command::Command;
 use crate::document::imported::{Fingerprint, ImportOverrides, ImportedSet, Role};
 use crate::document::render::MeshChoice;
@@ -105,30 +103,6 @@ impl ChromascopeApp {
         self.open(requests);
     }
 
-    /// Takes the pictures out of what is opened, and leads to where a camera is measured from them.
-    fn take_pictures(&mut self, requests: &mut Vec<Request>) {
-        let mut pictures = Vec::new();
-        requests.retain(|request| match request {
-            Request::Path(path) if is_picture(path) && !is_spectral_exr(path) => {
-                pictures.push(path.clone());
-                false
-            }
-            _ => true,
-        });
-        // The first is shown; the others follow as soon as it is taken.
-        pictures.into_iter().rev().for_each(|path| self.measure_from(path));
-    }
-
-    /// Shows a picture of a chart where a camera is measured from it.
-    pub(super) fn measure_from(&mut self, path: PathBuf) {
-        self.end_tour();
-        self.recorded.read_again(&path);
-        self.view.recorded.photos.insert(path.clone(), None);
-        self.view.recorded.photo = Some(path);
-        self.show_workspace(Workspace::Data);
-        self.view.show(PaneKind::MEASURE);
-    }
-
     pub(super) fn take_opened(&mut self) {
         for event in self.opened.poll() {
             match event {
@@ -143,6 +117,7 @@ impl ChromascopeApp {
                     let now = set.map_or(ImportItem::File(new), |set| ImportItem::Set(set.name.clone()));
                     self.view.import.follow(&ImportItem::File(old), &now);
                 }
+                OpenedEvent::Bands(passes) => self.measure_from_bands(passes),
                 OpenedEvent::Mesh(path) => self.open_mesh(&path),
                 OpenedEvent::Image(path) => {
                     self.meshes.cancel();

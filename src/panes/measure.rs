@@ -1,20 +1,24 @@
-//! The user's own camera from pictures of a chart: picture, patches, curves and profile in one column.
+//! The user's own camera from pictures of a chart or from narrow bands: picture, patches, curves and profile in one column.
 
+mod bands;
 mod picture;
 mod results;
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use chromascope_core::camera::chart_search::CHART_SIZE;
 use chromascope_core::query::{ChartMeasurement, RecordedSet};
 use egui::{Label, Rect, RichText, TextEdit, Ui};
 
 use super::context::{Pane, PaneContext};
 use crate::action::Action;
+use crate::catalog::file_store::FileState;
+use crate::catalog::recorded_store::RecordedContent;
 use crate::command::Command;
 use crate::document::imported::Fingerprint;
-use crate::document::measurement::{MeasuredShot, Measurement};
+use crate::document::measurement::{MeasuredPatch, MeasuredShot, Measurement};
 use crate::document::{Light, SetKind};
 use crate::format::{file_name, sentence};
 use crate::panes::widgets;
@@ -28,10 +32,13 @@ pub const PANE: Pane = Pane::new(PaneKind::MEASURE, "Measure", show).tab("Measur
 
 const ABOUT: &str = "Photograph a chart of 24 patches (ColorChecker), evenly lit, slightly underexposed and slightly out of \
     focus, as a raw file, and drop it here: DNG, a linear 16-bit TIFF or PNG, or OpenEXR. The camera's sensitivities are estimated from \
-    its raw values with those of the library as a prior: good for color, a guess where the band is wide.";
+    its raw values with those of the library as a prior: good for color, a guess where the band is wide. Of other charts, click the \
+    corners and choose your own reflectances. Or drop tables of narrow bands here, one for each pass, with the columns wavelength_nm, power, \
+    exposure_s, red, green, blue, dark_red, dark_green and dark_blue.";
 const UNKNOWN: &str = "Daylight of unknown temperature";
 const PICK: f32 = 220.0;
 const NAME: f32 = 220.0;
+const GRID: f32 = 80.0;
 
 /// What the pane keeps from frame to frame.
 #[derive(Default)]
@@ -61,17 +68,21 @@ struct Shown {
 
 fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let body = widgets::body(ui, &PANE, rect, context, |ui, context| {
-        context.button(ui, "Open picture…", "Open a raw picture of a chart", Command::OpenRecorded);
-        if context.scene.document.measurement.shots.is_empty() {
+        context.button(ui, "Open…", "Open raw pictures of a chart, or tables of narrow bands", Command::Open);
+        let Measurement { shots, passes, .. } = &context.scene.document.measurement;
+        if shots.is_empty() && passes.is_empty() {
             return;
         }
         results::add(ui, context);
-        if ui.button("Start anew").on_hover_text("Remove all pictures of this measurement").clicked() {
+        if ui.button("Start anew").on_hover_text("Remove all files of this measurement").clicked() {
             (context.view.recorded.photo, context.view.recorded.photos) = (None, BTreeMap::new());
             change(context, "Start a measurement anew", |measurement| *measurement = Measurement::default());
         }
     });
     widgets::scroll(ui, (PANE.kind, "measure"), body, context, |ui, context| {
+        if !context.scene.document.measurement.passes.is_empty() {
+            return bands::show(ui, context);
+        }
         let is_empty = context.scene.document.measurement.shots.is_empty();
         if is_empty && context.view.recorded.photo.is_none() {
             ui.add(Label::new(ABOUT).wrap());
@@ -105,28 +116,65 @@ fn wrong(ui: &mut Ui, words: &str, context: &PaneContext<'_>) {
     ui.add(Label::new(RichText::new(sentence(words)).color(context.theme.error)).wrap());
 }
 
-/// Camera, and chart and light of each picture.
-fn shots(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let measurement = context.scene.document.measurement.clone();
+/// Name of the camera.
+fn camera(ui: &mut Ui, context: &mut PaneContext<'_>) {
     ui.horizontal_wrapped(|ui| {
         ui.label("Camera");
-        let mut name = measurement.camera.clone();
+        let mut name = context.scene.document.measurement.camera.clone();
         let field = ui.add(TextEdit::singleline(&mut name).desired_width(NAME).hint_text("Maker and model"));
         widgets::labeled(&field, egui::Role::TextInput, "Name of the camera");
         if field.changed() {
             change(context, "Name of the camera", |measurement| measurement.camera = name);
         }
     });
-    for (index, shot) in measurement.shots.iter().enumerate() {
+}
+
+/// Camera, and chart and light of each picture.
+fn shots(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    camera(ui, context);
+    for (index, shot) in context.scene.document.measurement.shots.iter().enumerate() {
         ui.push_id(index, |ui| ui.horizontal_wrapped(|ui| one_shot(ui, index, shot, context)));
     }
+}
+
+/// True for the picture of a shot.
+fn is_it(shot: &MeasuredShot, path: &Path, of: Option<Fingerprint>) -> bool {
+    of.is_some_and(|of| shot.is_of(of, &file_name(path)))
+}
+
+/// Names chart and grid of a picture, which is measured again by another grid.
+fn set_chart(index: usize, chart: String, grid: [usize; 2], context: &mut PaneContext<'_>) {
+    let shot = &context.scene.document.measurement.shots[index];
+    let patches = if grid == shot.grid { Ok(shot.patches.clone()) } else { measured_again(shot, grid, context) };
+    match patches {
+        Ok(patches) => change(context, "Chart of a picture", |measurement| {
+            let shot = &mut measurement.shots[index];
+            (shot.chart, shot.grid, shot.patches) = (chart, grid, patches);
+        }),
+        Err(why) => context.view.fail(why),
+    }
+}
+
+fn measured_again(
+    shot: &MeasuredShot,
+    grid: [usize; 2],
+    context: &PaneContext<'_>,
+) -> Result<Vec<MeasuredPatch>, String> {
+    let mut photos = context.view.recorded.photos.iter();
+    let path = photos.find(|(path, of)| is_it(shot, path, **of)).map(|(path, _)| path);
+    if let Some(FileState::Ready(file)) = path.map(|path| context.recorded.get(path))
+        && let RecordedContent::Picture(photo) = &file.content
+    {
+        return photo.picture.patches(shot.corners, grid).map_err(|error| format!("{}: {error}.", shot.file));
+    }
+    let [columns, rows] = grid;
+    Err(format!("Open {} again first: its patches are measured in a grid of {columns} × {rows}.", shot.file))
 }
 
 fn one_shot(ui: &mut Ui, index: usize, shot: &MeasuredShot, context: &mut PaneContext<'_>) {
     let (scene, theme) = (context.scene, context.theme);
     let recorded = &mut context.view.recorded;
-    let is_it = |path: &PathBuf, of: Option<Fingerprint>| of.is_some_and(|of| shot.is_of(of, &file_name(path)));
-    match recorded.photos.iter().find(|(path, of)| is_it(path, **of)) {
+    match recorded.photos.iter().find(|(path, of)| is_it(shot, path, **of)) {
         Some((path, _)) if recorded.photo.as_ref() != Some(path) => {
             if ui.button(&shot.file).on_hover_text("Show this picture").clicked() {
                 recorded.photo = Some(path.clone());
@@ -167,12 +215,23 @@ fn one_shot(ui: &mut Ui, index: usize, shot: &MeasuredShot, context: &mut PaneCo
     let hint = ("Chart of the picture", "Measured reflectances of the chart, yours or those of its edition");
     if let Some(chosen) = pick_list::drop_down(ui, hint, shot.chart.as_str(), PICK, &theme, lines) {
         let name = charts[chosen].name.clone();
-        change(context, "Chart of a picture", |measurement| measurement.shots[index].chart = name);
+        let grids = scene.grids_of(&name);
+        let grid = grids.iter().find(|grid| **grid == shot.grid).or(grids.first());
+        set_chart(index, name, grid.copied().unwrap_or(shot.grid), context);
     }
+    let grids = scene.grids_of(&shot.chart);
+    if shot.grid != CHART_SIZE || grids.first() != Some(&CHART_SIZE) {
+        let words = |[columns, rows]: [usize; 2]| format!("{columns} × {rows}");
+        let lines = || grids.iter().map(|grid| Line::new(words(*grid), *grid == shot.grid)).collect();
+        let hint = ("Grid of the picture", "Patches across and down, from the first corner");
+        if let Some(chosen) = pick_list::drop_down(ui, hint, words(shot.grid), GRID, &theme, lines) {
+            set_chart(index, shot.chart.clone(), grids[chosen], context);
+        }
+    }
+    let recorded = &mut context.view.recorded;
     if ui.button("Remove").on_hover_text("Remove this picture from the measurement").clicked() {
         // Else it would be taken again beside the next one.
-        let recorded = &mut context.view.recorded;
-        recorded.photos.retain(|path, of| !is_it(path, *of));
+        recorded.photos.retain(|path, of| !is_it(shot, path, *of));
         recorded.photo.take_if(|path| !recorded.photos.contains_key(path));
         change(context, "Remove a picture", |measurement| {
             measurement.shots.remove(index);

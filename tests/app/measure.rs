@@ -14,11 +14,13 @@ use chromascope::jobs::Executor;
 use chromascope::plot_item::PlotItem;
 use chromascope::view::SavedView;
 use chromascope::workspaces::{PaneKind, Workspace};
+use chromascope_core::patch_set::PatchSet;
+use chromascope_core::spectral::Dataset;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::cpu_renderer::Cpu;
-use crate::recorded::recording;
+use crate::recorded::{recording, recording_of};
 use crate::waiting;
 
 type Window = Harness<'static, ChromascopeApp>;
@@ -163,6 +165,23 @@ fn results_of_other_conditions_are_not_put_to_use() {
     assert!(can(&window, ADD));
 }
 
+/// Clicks corners in a picture of a size.
+fn click_corners(window: &mut Window, [width, height]: [f32; 2], corners: [[f64; 2]; 4]) {
+    let plot = window.get_by_label("Picture of the chart").rect();
+    let scale = (plot.width() / width).min(plot.height() / height);
+    let at =
+        |[x, y]: [f64; 2]| plot.center() + scale * (egui::vec2(x as f32, y as f32) - egui::vec2(width, height) / 2.0);
+    for corner in corners {
+        window.hover_at(at(corner));
+        window.run_steps(1);
+        for pressed in [true, false] {
+            let (pos, button, modifiers) = (at(corner), egui::PointerButton::Primary, egui::Modifiers::NONE);
+            window.event(egui::Event::PointerButton { pos, button, pressed, modifiers });
+        }
+        window.run_steps(3);
+    }
+}
+
 #[test]
 fn where_no_chart_is_found_its_corners_are_clicked() {
     let mut window = window();
@@ -173,18 +192,7 @@ fn where_no_chart_is_found_its_corners_are_clicked() {
     if window.query_by_label_contains("click the top left corner").is_none() {
         return;
     }
-    let plot = window.get_by_label("Picture of the chart").rect();
-    let scale = (plot.width() / 600.0).min(plot.height() / 400.0);
-    let at = |[x, y]: [f64; 2]| plot.center() + egui::vec2((x as f32 - 300.0) * scale, (y as f32 - 200.0) * scale);
-    for corner in CORNERS {
-        window.hover_at(at(corner));
-        window.run_steps(1);
-        for pressed in [true, false] {
-            let (pos, button, modifiers) = (at(corner), egui::PointerButton::Primary, egui::Modifiers::NONE);
-            window.event(egui::Event::PointerButton { pos, button, pressed, modifiers });
-        }
-        window.run_steps(3);
-    }
+    click_corners(&mut window, [600.0, 400.0], CORNERS);
     until(&mut window, "Choose the light that gapless.png");
     let shots = &window.state().history.document().measurement.shots;
     for (corner, wanted) in shots[0].corners.iter().zip(CORNERS) {
@@ -320,4 +328,130 @@ fn a_picture_that_holds_no_raw_values_says_what_to_do() {
         window.state_mut().push(Command::OpenPath(folder.join(name)));
         until(&mut window, words);
     }
+}
+
+/// A chart of 14 × 10 patches, A1 to N10, in a file column by column, and a picture of it; with a name for both.
+pub(crate) fn large_chart(name: &str) -> (PathBuf, PathBuf) {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let text = chromascope_data::text("charts/training_reflectances_190.csv").unwrap();
+    let rows = text.lines().filter(|line| !line.starts_with('#'));
+    let mut table = format!("# title: {name}\n# quantity: reflectance factor\n# unit: 1\n");
+    for (index, row) in rows.enumerate() {
+        let cells: Vec<&str> = row.split(',').collect();
+        let names = (0..140).map(|at| format!("{}{}", char::from(b'A' + at / 10), at % 10 + 1)).collect::<Vec<_>>();
+        let values = if index == 0 { names.join(",") } else { cells[1..=140].join(",") };
+        table += &[cells[0], ",", &values, "\n"].concat();
+    }
+    let (chart, picture) = (folder.join(format!("{name}.csv")), folder.join(format!("{name}.png")));
+    std::fs::write(&chart, &table).unwrap();
+    let recorded = recording_of(&PatchSet::from_dataset(&Dataset::read(&table).unwrap()));
+    let pixel = |x: u32, y: u32| {
+        let ((column, u), (row, v)) = ((x / 40, x % 40), (y / 40, y % 40));
+        let noise = 1.0 + 0.004 * f64::from((x * 31 + y * 17) % 13) / 13.0;
+        // Letters are columns.
+        let value = |c: usize| (recorded[(column * 10 + row) as usize].1[c] * noise) as u16;
+        image::Rgb(if (4..36).contains(&u) && (4..36).contains(&v) { [0, 1, 2].map(value) } else { [900; 3] })
+    };
+    image::ImageBuffer::<image::Rgb<u16>, Vec<u16>>::from_fn(560, 400, pixel).save(&picture).unwrap();
+    (chart, picture)
+}
+
+#[test]
+fn a_chart_of_another_grid_is_measured_by_its_own_reflectances() {
+    let (chart, picture) = large_chart("My large chart");
+    let mut window = window();
+    window.state_mut().push(Command::OpenPath(chart));
+    window.run_steps(2);
+    window.state().opened.wait();
+    window.state_mut().push(Command::OpenPath(picture));
+    until(&mut window, "click the top left corner");
+    // A little outside, where the picture ends.
+    click_corners(&mut window, [560.0, 400.0], [[0.5, 0.5], [559.5, 0.5], [559.5, 399.5], [0.5, 399.5]]);
+    until(&mut window, "Choose the light that My large chart.png");
+    let shot = |window: &Window| window.state().history.document().measurement.shots[0].clone();
+    assert_eq!((shot(&window).grid, shot(&window).patches.len()), ([6, 4], 24));
+    window.get_by_label("Chart of the picture: ColorChecker 24 (BabelColor average)").click();
+    window.run_steps(3);
+    window.get_all_by_label("My large chart").last().unwrap().click();
+    window.run_steps(3);
+    assert_eq!((shot(&window).grid, shot(&window).patches.len()), ([14, 10], 140));
+    assert!(window.query_by_label("Grid of the picture: 14 × 10").is_some());
+    name_light(&mut window, 0, own_light());
+    until(&mut window, "1. Nikon D70 (A.M.P.A.S.)");
+    assert!(window.query_all_by_label_contains("N10").next().is_some() && can(&window, ADD));
+    let document = window.state().history.document().clone();
+    assert_eq!(from_json(&to_json(&document).unwrap()).unwrap().measurement, document.measurement);
+    for _ in 0..2 {
+        window.state_mut().push(Command::Undo);
+        window.run_steps(2);
+    }
+    assert_eq!((shot(&window).grid, shot(&window).patches.len()), ([6, 4], 24), "chart and grid are one step");
+}
+
+fn passes(name: &str) -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    std::fs::create_dir_all(&folder).unwrap();
+    let put = |number: u32| {
+        let path = folder.join(format!("pass{number}.csv"));
+        let asset = format!("test-samples/nikon_d70_narrowband_pass{number}.csv");
+        std::fs::write(&path, chromascope_data::text(&asset).unwrap()).unwrap();
+        path
+    };
+    [1, 2].map(put).to_vec()
+}
+
+#[test]
+fn narrow_bands_become_a_camera() {
+    let mut window = window();
+    window.state_mut().push(Command::OpenPath(picture("before_bands.png", 12)));
+    until(&mut window, "Choose the light that before_bands.png");
+    let folder = passes("bands")[0].parent().unwrap().to_owned();
+    std::fs::write(folder.join("readme.md"), "No spectra.").unwrap();
+    window.state_mut().push(Command::OpenPath(folder));
+    until(&mut window, "Name the raw value from which on a mean is saturated");
+    assert!(window.state().view.is_shown(PaneKind::MEASURE) && !can(&window, ADD));
+    assert!(window.state().history.document().measurement.shots.is_empty(), "bands are measured in place of pictures");
+    window.get_by_label_contains("16384, the largest, of ").click();
+    until(&mut window, "Saturated, skipped and filled from the library's tables: blue at 410, 420, 430, 440 nm");
+    for words in ["Pass 1: pass1.csv, 31 bands", "Dark, skipped", "Passes scatter by", "Exponent of the response"] {
+        assert!(window.query_all_by_label_contains(words).next().is_some(), "{words}");
+    }
+    let document = window.state().history.document().clone();
+    assert_eq!(from_json(&to_json(&document).unwrap()).unwrap().measurement, document.measurement);
+    for _ in 0..2 {
+        window.get_by_label(ADD).click();
+        window.run_steps(3);
+        assert_eq!(cameras(&window), ["My camera (measured)"], "added again, it takes its own place");
+    }
+    let set = window.state().history.document().own[0].clone();
+    assert!(set.covariance.is_some() && set.curves.iter().all(|curve| curve.uncertainty.is_some()));
+    assert_eq!(set.decisions[0], "Recovered from 31 narrow bands in pass1.csv, pass2.csv");
+    window.get_by_label("Show in Rank").click();
+    window.run_steps(3);
+    assert_eq!(window.state().view.saved.workspace, Workspace::Rank);
+    while !window.state().history.document().measurement.passes.is_empty() {
+        window.state_mut().push(Command::Undo);
+        window.run_steps(2);
+    }
+    assert_eq!(window.state().history.document().measurement.shots.len(), 1, "the picture's patches are back");
+}
+
+#[test]
+fn tables_of_bands_that_are_wrong_say_why() {
+    let [first, second] = passes("wrong_bands").try_into().unwrap();
+    let text = std::fs::read_to_string(&first).unwrap();
+    std::fs::write(&first, text.replacen("400,0.00296", "400,none", 1)).unwrap();
+    let mut window = window();
+    window.state_mut().push(Command::OpenPath(first.clone()));
+    until(&mut window, "column power: not a number");
+    std::fs::write(&first, text.replacen("400,0.00296", "395,0.00296", 1)).unwrap();
+    window.state_mut().open_at_start(vec![second, first]);
+    until(&mut window, "16384, the largest");
+    window.get_by_label_contains("16384, the largest, of ").click();
+    until(&mut window, "Pass 2 has other bands than the first");
+    assert!(!can(&window, ADD));
+    // A picture is measured in place of bands.
+    window.state_mut().push(Command::OpenPath(picture("after_bands.png", 12)));
+    until(&mut window, "Choose the light that after_bands.png");
+    assert!(window.state().history.document().measurement.passes.is_empty());
 }

@@ -14,6 +14,7 @@ use chromascope::jobs::Executor;
 use chromascope::panes;
 use chromascope::view::SavedView;
 use chromascope::workspaces::PaneKind;
+use chromascope_core::patch_set::{Patch, PatchSet};
 use chromascope_core::spectral::{Dataset, GridSpectrum, Sensor};
 use chromascope_figure::FigureRoom;
 use egui_kittest::Harness;
@@ -75,18 +76,22 @@ fn fitted(window: &mut Window) {
 
 /// Raw values of the chart that the window starts with, under its light, through the measured D70, with noise.
 pub(crate) fn recording() -> Vec<(String, [f64; 3])> {
+    let start = Document::colorimetry().chart;
+    let (_, chart) =
+        chromascope_data::files("charts").find(|(_, text)| Dataset::read_header(text).unwrap().title == start).unwrap();
+    recording_of(&PatchSet::from_dataset(&Dataset::read(chart).unwrap()))
+}
+
+/// The same of another chart.
+pub(crate) fn recording_of(chart: &PatchSet) -> Vec<(String, [f64; 3])> {
     let document = Document::colorimetry();
     let asset = |path: &str| Dataset::read(chromascope_data::text(path).unwrap()).unwrap();
     let camera = Sensor::from_dataset(&asset("cameras/nikon_d70_a_m_p_a_s.csv")).unwrap();
-    let (_, chart) = chromascope_data::files("charts")
-        .find(|(_, text)| Dataset::read_header(text).unwrap().title == document.chart)
-        .unwrap();
-    let chart = chromascope_core::patch_set::PatchSet::from_dataset(&Dataset::read(chart).unwrap());
     let catalog = chromascope::catalog::Catalog::built_in();
     let results = chromascope::results::Results::default();
     let scene = chromascope::scene::Scene { document: &document, catalog: &catalog, results: &results };
     let light = scene.light().unwrap().grid;
-    let patch = |(index, patch): (usize, &chromascope_core::patch_set::Patch)| {
+    let patch = |(index, patch): (usize, &Patch)| {
         let values = patch.grid.values();
         let radiance = GridSpectrum::from_fn(|nm| {
             let at = (nm - 380.0).round() as usize;

@@ -1,6 +1,6 @@
 //! Patches of a chart in a picture, by the corners of its grid.
 
-use chromascope_core::camera::chart_grid::{ChartGrid, ChartGridError};
+use chromascope_core::camera::chart_grid::{ChartGrid, ChartGridError, grids, named_places};
 use chromascope_math::random::SplitMix64;
 
 /// A picture of 6 × 4 patches in perspective: patch i has (i + 1, 2(i + 1), 3(i + 1)), everything else −1.
@@ -73,4 +73,27 @@ fn patches_have_noise_and_shares_of_clipped_pixels() {
         assert!(patch.mean[1] == 1.0 && patch.mean[2].is_nan());
         assert_eq!((patch.clipped_share[1], patch.clipped[1]), if k == 0 { (0.01, true) } else { (0.0, false) });
     }
+}
+
+#[test]
+fn names_place_patches_with_letters_for_columns_or_rows() {
+    // The SG is listed column by column: A1 to A10, then B1.
+    let sg: Vec<String> = ('A'..='N').flat_map(|letter| (1..=10).map(move |n| format!("{letter}{n}"))).collect();
+    let names = || sg.iter().map(String::as_str);
+    let places = named_places(names(), [14, 10]).unwrap();
+    assert_eq!(places[..3], [0, 14, 28], "A1, A2 and A3 are below each other");
+    assert_eq!([places[10], places[139]], [1, 139], "B1 is beside A1, N10 the last");
+    assert_eq!(named_places(names(), [10, 14]).unwrap()[..3], [0, 1, 2], "turned, letters are rows");
+    assert_eq!(grids(&names().collect::<Vec<_>>())[..2], [[14, 10], [10, 14]]);
+    // The classic chart: four lettered rows, with leading zeros or without.
+    let classic: Vec<String> = ('A'..='D').flat_map(|letter| (1..=6).map(move |n| format!("{letter}0{n}"))).collect();
+    let in_order: Vec<usize> = (0..24).collect();
+    assert_eq!(named_places(classic.iter().map(String::as_str), [6, 4]).unwrap(), in_order);
+    for wrong in [&["A1", "A1"][..], &["A1", "white"], &["A1", "B2"], &["é1", "A1"], &["A0", "A18446744073709551615"]]
+    {
+        assert_eq!(named_places(wrong.iter().copied(), [2, 1]), None, "{wrong:?}");
+    }
+    assert_eq!(grids(&["dark skin"; 24])[0], [6, 4]);
+    assert_eq!(grids(&["prime"; 13]), [[13, 1], [1, 13]]);
+    assert!(grids(&[]).is_empty() && grids(&["many"; 20_000]).is_empty());
 }

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use chromascope_core::camera::chart_grid::ChartGrid;
+use chromascope_core::camera::chart_search::CHART_SIZE;
 use chromascope_figure::{Axis, Dash, InkRole, Mark, Marker, Panel, Shape, Tag};
 use egui::{Id, Label, RichText, Sense, Ui, Vec2};
 
@@ -10,7 +11,7 @@ use super::{State, change, heading, wrong};
 use crate::catalog::file_store::FileState;
 use crate::catalog::recorded_store::{ChartPhoto, RecordedContent};
 use crate::document::PHOTOGRAPHED_CHART;
-use crate::document::measurement::MeasuredShot;
+use crate::document::measurement::{MY_CAMERA, MeasuredShot};
 use crate::format::{file_name, path_end};
 use crate::paint::{self, PlotOptions};
 use crate::panes::context::PaneContext;
@@ -65,7 +66,11 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let words = match (corners.len(), photo.found) {
         (4, _) => "Drag a corner where the grid does not lie on the patches.".to_owned(),
         (count, _) => {
-            format!("No chart was found for certain: click the {} corner of the grid of patches.", CORNERS[count])
+            format!(
+                "No chart of 24 patches was found for certain: click the {} corner of the grid of patches, just outside the \
+                 patch there. Of another chart, choose its reflectances below as soon as all four are clicked.",
+                CORNERS[count]
+            )
         }
     };
     ui.add(Label::new(RichText::new(words).small().color(context.theme.weak)).wrap());
@@ -85,11 +90,20 @@ fn next(context: &mut PaneContext<'_>) {
     }
 }
 
+/// Chart and grid of a picture: of one that is not measured yet and where none was found, those of the last one.
+fn chart_of(path: &Path, photo: &ChartPhoto, context: &PaneContext<'_>) -> (String, [usize; 2]) {
+    let measurement = &context.scene.document.measurement;
+    let own = measurement.place(photo.contents, &file_name(path)).map(|index| &measurement.shots[index]);
+    let like = own.or_else(|| measurement.shots.last().filter(|_| photo.found.is_none()));
+    like.map_or_else(|| (PHOTOGRAPHED_CHART.to_owned(), CHART_SIZE), |shot| (shot.chart.clone(), shot.grid))
+}
+
 /// Puts the patches within the corners into the document.
 fn take(path: &Path, photo: &ChartPhoto, context: &mut PaneContext<'_>) {
+    let (chart, grid) = chart_of(path, photo, context);
     let state = context.states.of::<State>();
     let Ok(corners) = <[[f64; 2]; 4]>::try_from(state.corners.as_slice()) else { return };
-    let patches = match photo.picture.patches(corners) {
+    let patches = match photo.picture.patches(corners, grid) {
         Ok(patches) => patches,
         Err(error) => {
             state.corners.clear();
@@ -99,7 +113,7 @@ fn take(path: &Path, photo: &ChartPhoto, context: &mut PaneContext<'_>) {
     let (camera, contents, photos) = (photo.picture.camera(), photo.contents, context.view.recorded.photos.clone());
     change(context, "Patches of a picture", |measurement| {
         if measurement.camera.is_empty() {
-            measurement.camera = camera.unwrap_or_else(|| "My camera".to_owned());
+            measurement.camera = camera.unwrap_or_else(|| MY_CAMERA.to_owned());
         }
         if let Some(index) = measurement.place(contents, &file_name(path)) {
             let shot = &mut measurement.shots[index];
@@ -117,13 +131,14 @@ fn take(path: &Path, photo: &ChartPhoto, context: &mut PaneContext<'_>) {
             shot.file = path_end(&path_of(shot), &paths);
         }
         let file = path_end(path, &paths);
-        let (chart, contents) = (PHOTOGRAPHED_CHART.to_owned(), Some(contents));
+        let contents = Some(contents);
         measurement.shots.push(MeasuredShot {
             file,
             contents,
             chart,
             light: None,
             temperature_k: None,
+            grid,
             corners,
             patches,
         });
@@ -146,7 +161,7 @@ fn draw(ui: &mut Ui, path: &Path, photo: &ChartPhoto, corners: &[[f64; 2]], cont
     panel.equal_aspect = true;
     let image = Shape::Image { min: [0.0, height], max: [width, 0.0], image: photo.shown.clone() };
     panel.marks.push(Mark::new(Tag::default(), "picture of the chart", image));
-    panel.marks.extend(grid(corners, context));
+    panel.marks.extend(grid(corners, chart_of(path, photo, context).1, context));
     let points = Shape::Points { points: corners.to_vec(), marker: Marker::Circle, radius: 5.0 };
     panel.marks.push(Mark::new(Tag::default(), "corners", points).with_stroke(InkRole::Warning, 2.0));
     let options = PlotOptions { zoomable: false, reset: context.view.reset_plots, ..PlotOptions::default() };
@@ -179,9 +194,9 @@ fn draw(ui: &mut Ui, path: &Path, photo: &ChartPhoto, corners: &[[f64; 2]], cont
 }
 
 /// Outlines of the patches' counted parts; those with clipped pixels are marked.
-fn grid(corners: &[[f64; 2]], context: &PaneContext<'_>) -> Vec<Mark> {
-    let Some(grid) = <[[f64; 2]; 4]>::try_from(corners).ok().and_then(|corners| ChartGrid::new(corners, 6, 4).ok())
-    else {
+fn grid(corners: &[[f64; 2]], [columns, rows]: [usize; 2], context: &PaneContext<'_>) -> Vec<Mark> {
+    let corners_of_grid = <[[f64; 2]; 4]>::try_from(corners).ok();
+    let Some(grid) = corners_of_grid.and_then(|corners| ChartGrid::new(corners, columns, rows).ok()) else {
         return Vec::new();
     };
     let shots = &context.scene.document.measurement.shots;

@@ -4,11 +4,14 @@ use std::sync::Arc;
 
 use chromascope_core::camera::recorded::Freedom;
 use chromascope_core::query::{ChartMeasurement, RecordedSet, Shared};
+use chromascope_core::recovery::RecoveredCurves;
 use egui::{Button, Id, Label, RichText, Sense, Ui, Vec2};
 
-use super::{Shown, State, heading, wrong};
+use super::{Shown, State, bands, heading, wrong};
 use crate::action::{Action, ImportedAction};
 use crate::command::Command;
+use crate::document::imported::ImportedSet;
+use crate::document::measurement::Measurement;
 use crate::document::{Document, SensorId, SetKind};
 use crate::export::measured;
 use crate::export::profile::shot::ShotCorrection;
@@ -138,7 +141,7 @@ fn warn(ui: &mut Ui, doubts: &[String], context: &mut PaneContext<'_>) {
 }
 
 /// Ways on, once the camera is in the library.
-fn added(ui: &mut Ui, context: &mut PaneContext<'_>) {
+pub(super) fn added(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let Document { own, measurement, .. } = context.scene.document;
     let known = own.iter().find(|set| set.measured.is_some() && set.measured == measurement.origin());
     let Some(name) = known.map(|set| set.name.clone()) else { return };
@@ -157,18 +160,24 @@ fn camera(name: &str) -> PlotItem {
     PlotItem::Sensor(SensorId { kind: SetKind::Camera, name: name.to_owned() })
 }
 
-fn curves(ui: &mut Ui, measured: &ChartMeasurement, context: &mut PaneContext<'_>) {
+/// Recovered curves, with a table of the library behind them.
+pub(super) fn plot(ui: &mut Ui, curves: &RecoveredCurves, nearest: Option<&str>, context: &mut PaneContext<'_>) {
     heading(ui, "Curves");
     let size = Vec2::new(ui.available_width(), CURVES);
     let (place, _) = ui.allocate_exact_size(size, Sense::hover());
-    let nearest = measured.nearest.first().and_then(|(name, _)| context.scene.sensor(SetKind::Camera, name).ok());
-    let panel = figure::panel(measured, nearest.as_deref(), [size.x, size.y].map(f64::from));
+    let nearest = nearest.and_then(|name| context.scene.sensor(SetKind::Camera, name).ok());
+    let panel = figure::panel(curves, nearest.as_deref(), [size.x, size.y].map(f64::from));
     let options = PlotOptions { zoomable: false, reset: context.view.reset_plots, ..PlotOptions::default() };
     let shown = paint::plot(ui, Id::unique("measured curves"), &panel, &context.theme, place, options);
-    widgets::labeled(&shown.response, egui::Role::Canvas, "Sensitivities recovered from the pictures");
+    widgets::labeled(&shown.response, egui::Role::Canvas, "Recovered sensitivities");
     if let Some([nm, _]) = shown.hovered {
-        widgets::read_at_pointer(&shown.response, &figure::at(measured, nm));
+        widgets::read_at_pointer(&shown.response, &figure::at(curves, nm));
     }
+}
+
+fn curves(ui: &mut Ui, measured: &ChartMeasurement, context: &mut PaneContext<'_>) {
+    let nearest = measured.nearest.first().map(|(name, _)| name.as_str());
+    plot(ui, &measured.recovery.curves, nearest, context);
     let nearest: Vec<String> = measured
         .nearest
         .iter()
@@ -185,13 +194,25 @@ fn curves(ui: &mut Ui, measured: &ChartMeasurement, context: &mut PaneContext<'_
 
 /// Button that puts what is shown to use.
 pub(super) fn add(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let usable = usable(context);
+    if context.scene.document.measurement.passes.is_empty() {
+        return put(ui, usable(context), measured::set_of_chart, context);
+    }
+    let found = bands::answer(context).ok().flatten().ok_or("There is no result of these bands");
+    put(ui, found, measured::set_of_bands, context);
+}
+
+fn put<T>(
+    ui: &mut Ui,
+    usable: Result<Arc<T>, &'static str>,
+    set: impl Fn(&Measurement, &T) -> ImportedSet,
+    context: &mut PaneContext<'_>,
+) {
     let hint = "As a camera with its uncertainties: it is compared and ranked, and saved from Data in all formats";
     let button = ui.add_enabled(usable.is_ok(), Button::new("Add to the library and compare"));
     let button = button.on_hover_text(hint).on_disabled_hover_text(usable.as_ref().err().map_or(hint, |why| *why));
     if let Some(measured) = usable.ok().filter(|_| button.clicked()) {
         let scene = context.scene;
-        let set = measured::set(&scene.document.measurement, &measured);
+        let set = set(&scene.document.measurement, &measured);
         let (document, built_in) = (scene.document, scene.catalog.names().clone());
         let name = document.free_name(SetKind::Camera, &set.name, document.same_set(&set), &built_in);
         context.push(Action::Imported(ImportedAction::Import { sets: vec![set], built_in }));

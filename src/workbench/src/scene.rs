@@ -31,7 +31,7 @@ use chromascope_core::query::{
     Ask, ColorTransformSpec, DifferenceError, Locus, LocusQuery, MonochromaticQuery, PatchColor, PatchColorsQuery,
     Query, RenderingQuery, Shared, SpectralLocusQuery, Temperatures, compare,
 };
-use chromascope_core::recovery::RecoveryError;
+use chromascope_core::recovery::{NarrowBandError, RecoveryError};
 use chromascope_core::reflectance::SurfaceError;
 use chromascope_core::scene::lighting::LightingError;
 use chromascope_core::spectral::{GridSpectrum, Sensor};
@@ -78,6 +78,8 @@ pub enum SceneError {
     Lighting(#[from] LightingError),
     #[error(transparent)]
     Recovery(#[from] RecoveryError),
+    #[error(transparent)]
+    NarrowBands(#[from] NarrowBandError),
 }
 
 /// Name and appearance of a compared sensor, the same in all panes.

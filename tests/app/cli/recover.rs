@@ -4,6 +4,7 @@ use chromascope_core::patch_set::PatchSet;
 use chromascope_core::spectral::{Dataset, GridSpectrum, Quantity, Sensor};
 
 use super::{file, run};
+use crate::measure::large_chart;
 
 #[allow(dead_code, clippy::cast_possible_wrap, reason = "shared with the tests of the reader, whose files are small")]
 #[path = "../../raw-image/writer.rs"]
@@ -90,4 +91,45 @@ fn the_camera_of_a_dng_names_the_curves() {
     let (out, error, done) = recover(&[&[picture.to_str().unwrap()], &named[..]].concat());
     assert!(done, "{out} {error}");
     assert!(stated(&written).contains("NIKON D700"));
+}
+
+#[test]
+fn a_chart_of_another_grid_is_recovered_by_its_own_reflectances() {
+    let (chart, picture) = large_chart("Command line chart");
+    let [chart, picture] = [&chart, &picture].map(|path| path.to_str().unwrap());
+    let light = chromascope::document::Document::colorimetry();
+    let chromascope::document::Light::Set(light) = light.light else { panic!("{:?}", light.light) };
+    let named = [picture, "--chart", chart, "--illuminant", &light];
+    let corners = ["--corners", "0,0", "560,0", "560,400", "0,400"];
+    let (_, error, done) = recover(&[&named[..], &["--layout", "14x10"]].concat());
+    assert!(!done && error.contains("--corners"), "{error}");
+    let (_, error, done) = recover(&[&named[..], &corners].concat());
+    assert!(!done && error.contains("140 patches, the picture 24"), "{error}");
+    let written = file("recover_grid.csv", "").display().to_string();
+    let out = ["--grid", "14x10", "--out", &written, "--force"];
+    let (out, error, done) = recover(&[&named[..], &corners, &out].concat());
+    assert!(done && !out.contains("Warning"), "{out} {error}");
+    // Row by row, whatever the order of the file.
+    let at = |name: &str| out.lines().position(|line| line.trim_start().starts_with(name)).unwrap();
+    assert!(at("A1 ") < at("B1 ") && at("B1 ") < at("N1 ") && at("N1 ") < at("A2 "), "{out}");
+    assert!(stated(&written).contains("raw values of 140 patches of"));
+}
+
+#[test]
+fn narrow_bands_are_printed_with_what_was_left_out() {
+    let pass = |number: u32| {
+        let text = chromascope_data::text(&format!("test-samples/nikon_d70_narrowband_pass{number}.csv")).unwrap();
+        file(&format!("recover_bands_{number}.csv"), text).display().to_string()
+    };
+    let [first, second] = [pass(1), pass(2)];
+    let output = run(&["recover", "narrowband", &first, &second, "--clip", "16384"]);
+    let out = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success() && out.contains("tables: blue at 410, 420, 430, 440 nm"), "{out}");
+    let few = file(
+        "recover_few_bands.csv",
+        &std::fs::read_to_string(&first).unwrap().lines().take(12).fold(String::new(), |all, line| all + line + "\n"),
+    );
+    let output = run(&["recover", "narrowband", few.to_str().unwrap(), "--clip", "16384"]);
+    let error = String::from_utf8(output.stderr).unwrap();
+    assert!(error.contains("recover_few_bands.csv: 4 bands; at least 8 are needed"), "{error}");
 }

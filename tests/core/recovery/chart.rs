@@ -1,13 +1,13 @@
 //! Charts: hold-outs over the library, and the posterior by a second method.
 
-use chromascope_core::camera::recorded::Signal;
+use chromascope_core::camera::recorded::{RecordedPatch, Signal};
 use chromascope_core::math::random::SplitMix64;
-use chromascope_core::recovery::{ChartRecovery, Library, RecoveryError, Shot};
+use chromascope_core::recovery::{ChartRecovery, Library, RecoveryError, Shot, left_out};
 use chromascope_core::spectral::Sensor;
 use rayon::prelude::*;
 
-use super::support::{A, Conditions, D65, EVEN, cameras, library_without, maker, model, shot};
-use crate::support::light;
+use super::support::{A, Conditions, D65, EVEN, cameras, library_without, maker, model, normal, shot};
+use crate::support::{CIE_1931, light, patches, sensor};
 
 /// Errors of one recovered camera, over 400–700 nm.
 struct Score {
@@ -235,4 +235,36 @@ fn light_that_falls_off_costs_no_more_than_a_gray_frame_would_save() {
         let ([own, patches], [with_gray, _]) = (falling_off(by_maker, |_| 1.0), falling_off(by_maker, fall_off));
         assert!(own < 1.05 * with_gray && patches < 0.003, "{own} {with_gray} {patches}");
     }
+}
+
+/// 140 reflectances in 14 columns: light that falls off over them is known by its plane, and the curves are nearer than by 24 patches.
+#[test]
+fn a_larger_chart_says_more() {
+    let (cameras, light, training) = (cameras(), light(D65), patches("charts/training_reflectances_190.csv"));
+    let (name, camera) = cameras.iter().find(|(name, _)| name == "nikon_d700").unwrap();
+    let library = library_without(&cameras, |other| model(other) == model(name));
+    let mut random = SplitMix64::new(3);
+    let fall_off = |at: usize| 1.0 + 0.08 * ((at % 14) as f64 / 6.5 - 1.0);
+    let patch = |(at, patch): (usize, &chromascope_core::patch_set::Patch)| {
+        let radiance = patch.grid.times(&light);
+        let raw = camera.integrate(radiance.values());
+        let rgb =
+            raw.map(|value| Signal::new(value * fall_off(at) * (1.0 + 0.01 * normal(&mut random)), f64::INFINITY));
+        RecordedPatch { name: format!("p{at}"), radiance, rgb }
+    };
+    let recorded: Vec<RecordedPatch> = training.patches()[..140].iter().enumerate().map(patch).collect();
+    let mut large = Shot::new(recorded, light.clone(), &[], 0.01);
+    large.columns = Some(14);
+    let found = ChartRecovery::new(&library, std::slice::from_ref(&large)).unwrap();
+    let logs: Vec<f64> = found.brightness[0].iter().enumerate().map(|(at, b)| (b / fall_off(at)).ln()).collect();
+    let mean = logs.iter().sum::<f64>() / logs.len() as f64;
+    let patches = (logs.iter().map(|log| (log - mean).powi(2)).sum::<f64>() / logs.len() as f64).sqrt();
+    assert!(patches < 0.01, "{patches}");
+    let small = ChartRecovery::new(&library, &[shot(camera, &light, EVEN, &mut random)]).unwrap();
+    let [large_errors, small_errors] =
+        [&found, &small].map(|found| score(name, camera, &library, found).errors.iter().sum::<f64>());
+    assert!(large_errors < small_errors, "{large_errors} {small_errors}");
+    let errors = left_out(&library, &[large], &sensor(CIE_1931)).unwrap();
+    assert!(errors.iter().enumerate().all(|(at, (name, error))| *name == format!("p{at}") && error.unwrap() < 5.0));
+    assert_eq!(errors.len(), 140);
 }

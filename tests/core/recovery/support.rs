@@ -81,5 +81,5 @@ pub(super) fn shot(sensor: &Sensor, light: &GridSpectrum, with: Conditions, rand
         let rgb = recorded.map(|v| Signal::new(v, f64::INFINITY));
         patches.push(RecordedPatch { name: patch.name.clone(), radiance, rgb });
     }
-    Shot { patches, noise, light: light.clone(), drifts: Vec::new() }
+    Shot { patches, noise, light: light.clone(), columns: Some(6), drifts: Vec::new() }
 }

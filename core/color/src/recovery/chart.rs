@@ -5,7 +5,7 @@
 //! ```
 //! m = recorded value, g = gain of a channel, b = brightness of a patch, f = veiling glare of a channel as a share of white, β = the shot's
 //! mean brightness, W = radiance of the brightest patch, D = modes in which the light is uncertain, t ~ N(0, 1), ε = noise.
-//! C has the library's prior, f ~ N(0.5 %, 1 %) within 0–3 %, ln b ~ N(a plane over a chart of 6 × 4 patches, τ²) with plane and τ estimated
+//! C has the library's prior, f ~ N(0.5 %, 1 %) within 0–3 %, ln b ~ N(a plane over the chart, τ²) with plane and τ estimated
 //! from the same recording; C ≥ 0.
 //! Gauss–Newton; the covariance is that of the linear model at the solution, without the bounds, so it is rather too wide near zero.
 
@@ -22,6 +22,8 @@ use problem::{Problem, Solution};
 
 /// Fewest patches with two usable channels.
 const FEWEST: usize = 8;
+/// Most patches of all shots: each is an unknown of equations that are solved as a whole.
+const MOST: usize = 600;
 /// Largest share of clipped values.
 const CLIPPED: f64 = 0.25;
 /// Largest residual in units of the noise.
@@ -46,14 +48,22 @@ pub struct Shot {
     pub noise: Vec<[f64; 3]>,
     /// Radiance L of a perfect diffuser.
     pub light: GridSpectrum,
+    /// Patches in a row of the chart, where their places are known: the light may then have a slope over it.
+    pub columns: Option<usize>,
     /// Relative changes of the light by one standard deviation of each way in which it is uncertain.
     pub drifts: Vec<GridSpectrum>,
 }
 
-hash_by!(Shot, |of| (&of.patches, of.noise.iter().map(|row| row.map(bits)).collect::<Vec<_>>(), &of.light, &of.drifts));
+hash_by!(Shot, |of| (
+    &of.patches,
+    of.noise.iter().map(|row| row.map(bits)).collect::<Vec<_>>(),
+    &of.light,
+    of.columns,
+    &of.drifts
+));
 
 impl Shot {
-    /// Patches under a light; the standard deviation of a value is that by the `pixels`, where known, and `relative` times the value, in
+    /// Patches under a light, of which 24 are those of a chart of 6 × 4; the standard deviation of a value is that by the `pixels`, where known, and `relative` times the value, in
     /// quadrature.
     pub fn new(patches: Vec<RecordedPatch>, light: GridSpectrum, pixels: &[[f64; 3]], relative: f64) -> Self {
         let deviation = |patch: usize, c: usize| {
@@ -61,7 +71,8 @@ impl Shot {
             (relative * value).hypot(pixels.get(patch).map_or(0.0, |row| row[c]))
         };
         let noise = (0..patches.len()).map(|patch| [0, 1, 2].map(|c| deviation(patch, c))).collect();
-        Self { patches, noise, light, drifts: Vec::new() }
+        let columns = Some(6).filter(|_| patches.len() == 24);
+        Self { patches, noise, light, columns, drifts: Vec::new() }
     }
 
     /// Shot with these values, taken to be recorded under another light.
@@ -101,6 +112,8 @@ impl Shot {
 pub enum RecoveryError {
     #[error("{usable} patches with usable values; at least {FEWEST} are needed, better 24")]
     TooFew { usable: usize },
+    #[error("{patches} patches; at most {MOST} are computed with, so use fewer pictures or patches")]
+    TooMany { patches: usize },
     #[error("{clipped} of {values} values are clipped; expose less")]
     Clipped { clipped: usize, values: usize },
     #[error(
@@ -258,6 +271,9 @@ fn adapted(problem: &mut Problem, prior: &mut Prior, mut solution: Solution) -> 
 
 fn check(shots: &[Shot]) -> Result<(), RecoveryError> {
     let all = || shots.iter().flat_map(|shot| &shot.patches);
+    if all().count() > MOST {
+        return Err(RecoveryError::TooMany { patches: all().count() });
+    }
     let values = all().count() * 3;
     let clipped = all().flat_map(|patch| patch.rgb).filter(|v| v.value() == Err(Exclusion::Clipped)).count();
     if clipped as f64 > CLIPPED * values as f64 {

@@ -13,16 +13,19 @@ use super::curves::RecoveredCurves;
 use super::prior::{Library, Prior};
 use crate::math::dense::{Cholesky, Matrix, among, bounded_minimum, times};
 use crate::spectral::{DistributionError, Sensor};
+use crate::units::{bits, hash_by};
 
 /// Relative standard deviation of the cells of one pass that nothing can be compared with.
 const ONE_PASS: f64 = 0.02;
-/// Fewest bands.
+/// Fewest bands, and the most whose equations are solved: every nanometer.
 const FEWEST: usize = 8;
+const MOST: usize = 401;
 /// Net signals below so many standard deviations of the dark level are dark.
 const DARK: f64 = 3.0;
 
 /// One band of one pass.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Band {
     /// Center in nanometers.
     pub wavelength_nm: f64,
@@ -37,6 +40,11 @@ pub struct Band {
     /// Raw means without.
     pub dark: [f64; 3],
 }
+
+hash_by!(Band, |of| {
+    let row = [of.wavelength_nm, of.width_nm.unwrap_or_default(), of.power, of.exposure].map(bits);
+    (row, of.lit.map(bits), of.dark.map(bits))
+});
 
 /// Bands in ascending order, each measured once.
 pub type Pass = Vec<Band>;
@@ -61,12 +69,16 @@ pub struct NarrowBands {
     pub clip: f64,
 }
 
+hash_by!(NarrowBands, |of| (&of.passes, bits(of.clip)));
+
 /// Reason that no sensitivities are recovered from bands.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[allow(missing_docs, reason = "each variant says in its message what is wrong")]
 pub enum NarrowBandError {
     #[error("{found} bands; at least {FEWEST} are needed")]
     TooFew { found: usize },
+    #[error("{found} bands; at most {MOST} are computed with, so take the means of neighbors")]
+    TooMany { found: usize },
     #[error("pass {pass} has other bands than the first")]
     Bands { pass: usize },
     #[error("the band at {nm} nm: power and exposure must be positive, all values finite")]
@@ -151,6 +163,9 @@ impl NarrowBands {
         let nm = self.passes.first().map(of).unwrap_or_default();
         if nm.len() < FEWEST {
             return Err(NarrowBandError::TooFew { found: nm.len() });
+        }
+        if nm.len() > MOST {
+            return Err(NarrowBandError::TooMany { found: nm.len() });
         }
         if let Some(pass) = self.passes.iter().position(|pass| of(pass) != nm) {
             return Err(NarrowBandError::Bands { pass: pass + 1 });

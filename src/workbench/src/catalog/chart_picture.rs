@@ -4,7 +4,7 @@ use std::io::Cursor;
 use std::path::Path;
 
 use chromascope_core::camera::chart_grid::{ChartGrid, ChartGridError, PatchMean};
-use chromascope_core::camera::chart_search::{CHART_SIZE, FoundChart, find_chart, refine_chart};
+use chromascope_core::camera::chart_search::{FoundChart, find_chart, refine_chart};
 use chromascope_core::colorimetry::rgb::srgb_transfer;
 use chromascope_core::patch_set::Patch;
 use chromascope_core::query::Ask as _;
@@ -215,9 +215,9 @@ impl ChartPicture {
         }
     }
 
-    /// Patches within the corners of a grid of 6 × 4.
-    pub fn patches(&self, corners: [[f64; 2]; 4]) -> Result<Vec<MeasuredPatch>, ChartPictureError> {
-        let means = self.means(&ChartGrid::new(corners, CHART_SIZE[0], CHART_SIZE[1])?, f64::INFINITY)?;
+    /// Patches within the corners of a grid of so many columns and rows.
+    pub fn patches(&self, corners: [[f64; 2]; 4], grid: [usize; 2]) -> Result<Vec<MeasuredPatch>, ChartPictureError> {
+        let means = self.means(&ChartGrid::new(corners, grid[0], grid[1])?, f64::INFINITY)?;
         let patch = |patch: &PatchMean| MeasuredPatch {
             rgb: [0, 1, 2].map(|c: usize| Some(patch.mean[c]).filter(|mean| !patch.clipped[c] && mean.is_finite())),
             deviation: patch.noise.map(|noise| if noise.is_finite() { noise } else { 0.0 }),

@@ -24,6 +24,12 @@ pub enum BandTableError {
     Number { line: usize, head: &'static str },
 }
 
+/// True for a table with these columns.
+pub fn is_pass(bytes: &[u8]) -> bool {
+    let beginning = read_pass(&bytes[..bytes.len().min(1 << 16)]);
+    !matches!(beginning, Err(BandTableError::Empty | BandTableError::Head { .. }))
+}
+
 pub fn read_pass(bytes: &[u8]) -> Result<Pass, BandTableError> {
     let text = String::from_utf8_lossy(bytes);
     let text = text.trim_start_matches('\u{feff}');

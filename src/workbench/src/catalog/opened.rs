@@ -20,6 +20,7 @@ use serde::{Deserialize, Serialize};
 
 use super::import::Imported;
 use crate::document::imported::{Fingerprint, ImportOverrides, ImportedSet};
+use crate::document::measurement::MeasuredPass;
 use crate::format::file_name;
 use crate::jobs::{self, Background, Executor};
 
@@ -56,6 +57,8 @@ pub enum OpenedEvent {
     Mesh(PathBuf),
     /// A spectral image is to be opened, which is not read yet.
     Image(PathBuf),
+    /// Passes over narrow bands, from which a camera is measured.
+    Bands(Vec<MeasuredPass>),
     /// A document of this program is to be opened, which is not read yet.
     Document(PathBuf),
     /// No file could be read, and nothing was changed. Contains the files whose text can be shown.

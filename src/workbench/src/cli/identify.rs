@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use chromascope_core::camera::chart_grid::ChartGrid;
+use chromascope_core::camera::chart_search::CHART_SIZE;
 use chromascope_core::camera::recorded::{Freedom, Link, LinkKind, RESAMPLES, RankRange, RecordedFit, RecordedPatch};
 use chromascope_core::query::{Ask as _, RecordedSet, Shared};
 use chromascope_core::spectral::{GridSpectrum, Quantity};
@@ -26,7 +27,7 @@ use crate::document::start::Start;
 use crate::format::{display_path, fixed, rank_in_words};
 use crate::results::Results;
 use crate::scene::Scene;
-use crate::scene::recorded::{CHANNELS, RANK_CAUTION, RankedCamera, cause_in_words, range_in_words};
+use crate::scene::recorded::{CHANNELS, RANK_CAUTION, RankedCamera, cause_in_words, in_grid, range_in_words};
 use crate::terminal::shown_json;
 
 const EXAMPLES: &str = "Examples:
@@ -60,11 +61,12 @@ pub(super) struct IdentifyArguments {
     /// A picture of the chart: DNG, linear 16-bit TIFF or PNG, OpenEXR
     #[arg(long, value_name = "FILE")]
     image: Option<PathBuf>,
-    /// Corners of the grid of patches in pixels, around the chart from the first patch: top left, top right, bottom right, bottom left
+    /// Outer corners of the grid of patches in pixels, around the chart from the first patch: top left, top right, bottom right, bottom left
     /// [default: a chart of 24 patches is searched]
     #[arg(long, value_name = "x,y", num_args = 4, value_parser = corner)]
     corners: Vec<[f64; 2]>,
-    /// Patches across and down the chart in the picture
+    /// Patches across and down the chart in the picture; they belong to spectra by names such as A1 or N10 where the chart has them, else
+    /// row by row
     #[arg(long, value_name = "CxR", default_value = "6x4", value_parser = grid)]
     grid: [usize; 2],
     /// The patches' reflectances: a chart, or a file
@@ -133,7 +135,7 @@ pub(super) fn corner(text: &str) -> Result<[f64; 2], String> {
     Ok([number(x)?, number(y)?])
 }
 
-fn grid(text: &str) -> Result<[usize; 2], String> {
+pub(super) fn grid(text: &str) -> Result<[usize; 2], String> {
     let wrong = || format!("\"{text}\" is not a grid; write patches across and down, such as 6x4");
     let (columns, rows) = text.split_once(['x', 'X', '×']).ok_or_else(wrong)?;
     let count = |text: &str| text.trim().parse::<usize>().ok().filter(|n| (1..=100).contains(n)).ok_or_else(wrong);
@@ -229,6 +231,8 @@ fn recorded_set(request: &mut Request, arguments: &IdentifyArguments, levels: Le
             return refused("--raw", "name a table of raw values, or a picture with --image");
         }
     };
+    let is_of_picture = arguments.image.is_some() || !own && arguments.file.as_deref().is_some_and(is_picture);
+    let spectra = if is_of_picture { in_grid(spectra, arguments.grid) } else { spectra };
     let joined = recorded::join(&spectra, &rows, levels);
     joined.map(Shared::new).map_err(|error| CliError::File(format!("{}: {error}", file_of(arguments))))
 }
@@ -265,7 +269,7 @@ fn picture_rows(
     path: &Path,
     levels: Levels,
 ) -> Result<Vec<RawRow>> {
-    let (picture, corners) = picture(request, path, &arguments.corners)?;
+    let (picture, corners) = picture(request, path, (&arguments.corners, arguments.grid))?;
     let [columns, rows] = arguments.grid;
     let grid = ChartGrid::new(corners, columns, rows).map_err(|error| in_file(path, error))?;
     picture.rows(&grid, levels).map_err(|error| in_file(path, error))
@@ -275,13 +279,15 @@ fn picture_rows(
 pub(super) fn picture(
     request: &mut Request,
     path: &Path,
-    corners: &[[f64; 2]],
+    (corners, grid): (&[[f64; 2]], [usize; 2]),
 ) -> Result<(ChartPicture, [[f64; 2]; 4])> {
     let bytes = request.bytes(path)?;
     let picture = ChartPicture::read(path, &bytes).map_err(|error| in_file(path, error))?;
     let named = <[[f64; 2]; 4]>::try_from(corners).ok();
-    let why = "no chart of 24 patches was found for certain; name its corners with --corners";
-    let corners = named.or_else(|| picture.find_chart()).ok_or_else(|| in_file(path, why))?;
+    let found = || picture.find_chart().filter(|_| grid == CHART_SIZE);
+    let why =
+        "no chart of 24 patches was found for certain, and of others none is searched; name the corners with --corners";
+    let corners = named.or_else(found).ok_or_else(|| in_file(path, why))?;
     Ok((picture, corners))
 }
 

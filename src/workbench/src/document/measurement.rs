@@ -1,19 +1,30 @@
-//! What a camera recorded of charts, by value: the photographs themselves are not part of a document.
+//! What a camera recorded of charts or of narrow bands, by value: the photographs themselves are not part of a document.
 
 use std::path::Path;
 
+use chromascope_core::camera::chart_search::CHART_SIZE;
+use chromascope_core::recovery::Pass;
 use serde::{Deserialize, Serialize};
 
 use super::imported::Fingerprint;
 use super::kind::Light;
 
-/// Shots of one camera from which its sensitivities are recovered.
+/// Name of a camera that no file states.
+pub const MY_CAMERA: &str = "My camera";
+
+/// Shots of a chart by one camera, or passes over narrow bands, from which its sensitivities are recovered.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Measurement {
     /// Name of the camera.
     pub camera: String,
     pub shots: Vec<MeasuredShot>,
+    /// Where there are any, there are no shots.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub passes: Vec<MeasuredPass>,
+    /// Raw value from which on a mean of a band is saturated; none until it is named.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clip: Option<f64>,
 }
 
 impl Measurement {
@@ -21,9 +32,10 @@ impl Measurement {
         *self == Self::default()
     }
 
-    /// That by which a camera recovered from these pictures is known: further pictures do not make another one.
+    /// That by which a camera recovered from these files is known: further ones do not make another one.
     pub fn origin(&self) -> Option<Fingerprint> {
-        self.shots.first().map(|shot| shot.contents.unwrap_or_else(|| Fingerprint::of(shot.file.as_bytes())))
+        let of_shot = |shot: &MeasuredShot| shot.contents.unwrap_or_else(|| Fingerprint::of(shot.file.as_bytes()));
+        self.shots.first().map(of_shot).or_else(|| self.passes.first().map(|pass| pass.contents))
     }
 
     /// Place of a picture's shot.
@@ -45,6 +57,9 @@ pub struct MeasuredShot {
     pub light: Option<Light>,
     /// Of a light by formula, in kelvins; none for daylight of unknown temperature.
     pub temperature_k: Option<f64>,
+    /// Columns and rows of the grid of patches.
+    #[serde(default = "usual_grid", skip_serializing_if = "is_usual_grid")]
+    pub grid: [usize; 2],
     /// Corners of the grid of patches in pixels, around the chart from the first patch.
     pub corners: [[f64; 2]; 4],
     pub patches: Vec<MeasuredPatch>,
@@ -62,6 +77,14 @@ impl MeasuredShot {
     }
 }
 
+/// Raw means of one pass over narrow bands.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MeasuredPass {
+    pub file: String,
+    pub contents: Fingerprint,
+    pub bands: Pass,
+}
+
 /// Means of a patch in the picture, linear, black at 0.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MeasuredPatch {
@@ -72,6 +95,14 @@ pub struct MeasuredPatch {
     /// Share of clipped pixels.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub clipped: f64,
+}
+
+fn usual_grid() -> [usize; 2] {
+    CHART_SIZE
+}
+
+fn is_usual_grid(grid: &[usize; 2]) -> bool {
+    *grid == CHART_SIZE
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature that serde calls")]

@@ -1,8 +1,10 @@
-//! A camera measured from a chart in tables and sentences, for the window and the command line, and as a set.
+//! A camera measured from a chart or from narrow bands in tables and sentences, for the window and the command line, and as a set.
 
 use chromascope_core::glam::DVec3;
 use chromascope_core::query::{ChartMeasurement, ErrorSummary};
-use chromascope_core::recovery::{ChartRecovery, FitSource, Shot, ShotProfile};
+use chromascope_core::recovery::{
+    Cell as State, ChartRecovery, FitSource, NarrowBandRecovery, RecoveredCurves, Shot, ShotProfile,
+};
 use chromascope_figure::{Cell, Column, Table};
 
 use crate::document::imported::{
@@ -11,9 +13,12 @@ use crate::document::imported::{
 use crate::document::measurement::Measurement;
 use crate::export::profile::shot;
 use crate::format::fixed;
+use crate::scene::recorded::CHANNELS;
 
-/// How the curves were made.
+/// How the curves were made of a chart.
 pub const REDUCTION: &str = "joint Gaussian estimate with the library's tables as prior; good for color, a guess where the uncertainty is large";
+/// How they were made of narrow bands.
+pub const BAND_REDUCTION: &str = "mean quotient of the passes, smoothed by the discrepancy principle; cells that were saturated or dark are filled from the library's tables";
 
 fn column(name: &str, width: usize, decimals: usize) -> Column {
     Column { width, decimals: Some(decimals), ..Column::from(name) }
@@ -36,6 +41,67 @@ pub fn curves(recovery: &ChartRecovery) -> Table {
         table.push(cells.map(Cell::from));
     }
     table
+}
+
+/// Curves of narrow bands with expanded uncertainties, and the quotients, or why they are not used.
+pub fn bands(found: &NarrowBandRecovery) -> Table {
+    let heads = ["nm", "red", "±", "green", "±", "blue", "±"];
+    let heads = heads.map(|name| column(name, 6, if name == "nm" { 0 } else { 4 }));
+    let mut table = Table::new(heads.into_iter().chain(["quotient R, G, B".into()]));
+    let (own, standard) = (&found.curves, found.curves.standard());
+    let peak = found.quotient.iter().flatten().copied().fold(f64::MIN_POSITIVE, f64::max);
+    for (k, nm) in own.wavelengths_nm.iter().enumerate() {
+        let pair = |c: usize| [own.values[c][k], 2.0 * standard[c][k]];
+        let quotient = |c: usize| match found.cells[c][k] {
+            State::Saturated => "saturated".to_owned(),
+            State::Dark => "dark".to_owned(),
+            State::Good => {
+                format!("{} ± {}", fixed(found.quotient[c][k] / peak, 4), fixed(2.0 * found.deviation[c][k] / peak, 4))
+            }
+        };
+        let cells = [*nm].into_iter().chain([0, 1, 2].into_iter().flat_map(pair)).map(Cell::from);
+        table.push(cells.chain([Cell::from([0, 1, 2].map(quotient).join("  "))]));
+    }
+    table
+}
+
+/// Cells that are skipped, scatter of the passes, linearity, shift and leaks, in sentences.
+pub fn band_conditions(found: &NarrowBandRecovery) -> Vec<String> {
+    let nm = &found.curves.wavelengths_nm;
+    let mut lines = vec!["± is expanded (k = 2)".to_owned()];
+    for (state, what) in [(State::Saturated, "Saturated"), (State::Dark, "Dark")] {
+        let of_channel = |(cells, channel): (&Vec<State>, &str)| {
+            let own = (0..nm.len()).filter(|k| cells[*k] == state).map(|k| fixed(nm[k], 0));
+            let own: Vec<String> = own.collect();
+            (!own.is_empty()).then(|| format!("{channel} at {} nm", own.join(", ")))
+        };
+        let all: Vec<String> = found.cells.iter().zip(CHANNELS).filter_map(of_channel).collect();
+        if !all.is_empty() {
+            lines.push(format!("{what}, skipped and filled from the library's tables: {}", all.join("; ")));
+        }
+    }
+    lines.push(found.scatter.map_or_else(
+        || "One pass: its scatter is not known, 2 % is assumed".to_owned(),
+        |scatter| {
+            let scatter = scatter.map(|s| fixed(100.0 * s, 1)).join(", ");
+            format!("Passes scatter by {scatter} % (one pass, standard deviation of red, green, blue)")
+        },
+    ));
+    let doubt =
+        |[value, deviation]: [f64; 2]| if value.abs() > 3.0 * deviation { ": check it" } else { ", not significant" };
+    let [slope, by] = found.nonlinearity;
+    let (exponent, band) = (fixed(1.0 + slope, 3), fixed(2.0 * by, 3));
+    lines.push(format!("Exponent of the response {exponent} ± {band}{}", doubt([slope, by])));
+    lines.extend(found.shift_nm.as_ref().map(|(shift, table)| {
+        let [nm, band] = [shift[0], 2.0 * shift[1]].map(|value| fixed(value, 1));
+        format!("Wavelengths are shifted by {nm} ± {band} nm from {table}{}", doubt(*shift))
+    }));
+    lines.extend(found.leak.iter().zip(CHANNELS).filter_map(|(leak, channel)| {
+        let share = fixed(100.0 * (*leak)?, 2);
+        let check = if (*leak)? > 0.01 { ": light outside the band, or an infrared leak" } else { "" };
+        Some(format!("{channel}: {share} % of the peak where no table of the library exceeds 1 %{check}"))
+    }));
+    lines
 }
 
 /// Recorded values of a shot with residuals and brightnesses.
@@ -158,9 +224,21 @@ pub fn corrections(profile: &ShotProfile) -> Table {
     table
 }
 
-/// The measured camera as a set of the user's, with uncertainties, covariance and where it is from.
-pub fn set(measurement: &Measurement, measured: &ChartMeasurement) -> ImportedSet {
-    let curves = &measured.recovery.curves;
+/// The camera measured from pictures as a set of the user's.
+pub fn set_of_chart(measurement: &Measurement, measured: &ChartMeasurement) -> ImportedSet {
+    let lights: Vec<&str> = measured.profiles.iter().map(|(light, _)| light.as_str()).collect();
+    let under = format!(" under {}, chart {}", lights.join(", "), measured.charts.join(", "));
+    set(measurement, &measured.recovery.curves, ["the patches of ", &under], REDUCTION)
+}
+
+/// The camera measured from narrow bands as a set of the user's.
+pub fn set_of_bands(measurement: &Measurement, found: &NarrowBandRecovery) -> ImportedSet {
+    let count = found.curves.wavelengths_nm.len();
+    set(measurement, &found.curves, [&format!("{count} narrow bands in "), ""], BAND_REDUCTION)
+}
+
+/// A measured camera with uncertainties, covariance and where it is from.
+fn set(measurement: &Measurement, curves: &RecoveredCurves, [from, under]: [&str; 2], reduction: &str) -> ImportedSet {
     let standard = curves.standard();
     let curve = |(c, name): (usize, &str)| ImportedCurve {
         name: name.to_owned(),
@@ -170,13 +248,14 @@ pub fn set(measurement: &Measurement, measured: &ChartMeasurement) -> ImportedSe
         uncertainty: Some(Uncertainty { standard: standard[c].clone(), coverage: 2.0 }),
         unknown: serde_json::Map::new(),
     };
-    let files: Vec<&str> = measurement.shots.iter().map(|shot| shot.file.as_str()).collect();
-    let lights: Vec<&str> = measured.profiles.iter().map(|(light, _)| light.as_str()).collect();
-    let source = format!("{} under {}, chart {}", files.join(", "), lights.join(", "), measured.charts.join(", "));
+    let files = measurement.shots.iter().map(|shot| shot.file.as_str());
+    let files: Vec<&str> = files.chain(measurement.passes.iter().map(|pass| pass.file.as_str())).collect();
+    let files = files.join(", ");
     let size = 3 * curves.wavelengths_nm.len();
     ImportedSet {
         name: format!("{} (measured)", measurement.camera),
-        file: files.join(", "),
+        decisions: vec![format!("Recovered from {from}{files}{under}"), format!("Method: {reduction}")],
+        file: files,
         path: None,
         fingerprint: None,
         measured: measurement.origin(),
@@ -189,6 +268,5 @@ pub fn set(measurement: &Measurement, measured: &ChartMeasurement) -> ImportedSe
         channels: [0, 1, 2],
         curves: ["red", "green", "blue"].into_iter().enumerate().map(curve).collect(),
         covariance: Some(Covariance { size, values: curves.covariance.clone() }),
-        decisions: vec![format!("Recovered from the patches of {source}"), format!("Method: {REDUCTION}")],
     }
 }

@@ -1,6 +1,6 @@
-//! Curves of a camera that was measured from a chart, with their bands.
+//! Curves of a camera that was measured, with their bands.
 
-use chromascope_core::query::ChartMeasurement;
+use chromascope_core::recovery::RecoveredCurves;
 use chromascope_core::spectral::Sensor;
 use chromascope_figure::{Axis, Dash, Ink, InkRole, Mark, Panel, Rect, Shape, Tag};
 
@@ -15,8 +15,7 @@ const BAND: f32 = 0.22;
 
 /// Plot of the curves with two standard deviations; behind them the nearest table of the library, dashed, and the share of the data,
 /// dotted.
-pub fn panel(measured: &ChartMeasurement, nearest: Option<&Sensor>, size: [f64; 2]) -> Panel {
-    let curves = &measured.recovery.curves;
+pub fn panel(curves: &RecoveredCurves, nearest: Option<&Sensor>, size: [f64; 2]) -> Panel {
     let nm = &curves.wavelengths_nm;
     let x = Axis::new("wavelength (nm)", [nm.first().copied().unwrap_or(380.0), nm.last().copied().unwrap_or(780.0)]);
     let y = Axis::new("relative sensitivity", [0.0, 1.12]);
@@ -52,8 +51,7 @@ fn sensor_at(sensor: &Sensor, nm: f64) -> [f64; 3] {
 }
 
 /// Values with their bands and shares of data at the wavelength nearest to one, in lines.
-pub fn at(measured: &ChartMeasurement, nm: f64) -> Vec<String> {
-    let curves = &measured.recovery.curves;
+pub fn at(curves: &RecoveredCurves, nm: f64) -> Vec<String> {
     let away = |k: &usize| (curves.wavelengths_nm[*k] - nm).abs();
     let Some(k) = (0..curves.wavelengths_nm.len()).min_by(|a, b| away(a).total_cmp(&away(b))) else {
         return Vec::new();

@@ -1,11 +1,14 @@
 //! The measurement of the document as a question.
 
+use chromascope_core::camera::chart_grid::grids;
 use chromascope_core::camera::recorded::{RecordedPatch, Signal};
 use chromascope_core::query::ChartShot;
+use chromascope_core::recovery::NarrowBands;
 
-use super::recovery::MeasuredCameraQuery;
+use super::recorded::in_grid;
+use super::recovery::{MeasuredBandsQuery, MeasuredCameraQuery};
 use super::{Scene, SceneError};
-use crate::document::measurement::{MeasuredPatch, MeasuredShot};
+use crate::document::measurement::{MeasuredPatch, MeasuredShot, Measurement};
 use crate::document::{Document, Subset};
 
 /// Relative standard deviation by which charts of one edition, and light and model, differ from what is assumed.
@@ -41,18 +44,39 @@ impl Scene<'_> {
         }
         let document = self.under(shot);
         let scene = Scene { document: &document, ..*self };
-        let (patches, pixels) = scene.recorded_patches(&shot.patches)?;
-        let made = scene.chart_shot(patches, &pixels, RELATIVE, shot.is_daylight());
+        let recorded = scene.recorded_patches(&shot.patches, shot.grid)?;
+        let made = scene.chart_shot(recorded, Some(shot.grid[0]), RELATIVE, shot.is_daylight());
         let made = made.map_err(|error| format!("{}: {error}", shot.file))?;
         Ok(ChartShot { picture: shot.file.clone(), ..made })
     }
 
+    /// Question for the sensitivities by the passes over bands of the document; none without any, or while their clipping level is not named.
+    pub fn measured_passes(&self) -> Option<MeasuredBandsQuery> {
+        let Measurement { passes, clip, .. } = &self.document.measurement;
+        let clip = clip.filter(|_| !passes.is_empty())?;
+        Some(self.measured_bands(NarrowBands { passes: passes.iter().map(|pass| pass.bands.clone()).collect(), clip }))
+    }
+
+    /// Grids that the patches of a chart fill, the likeliest first.
+    pub fn grids_of(&self, chart: &str) -> Vec<[usize; 2]> {
+        let set = self.patch_set(chart, None);
+        set.map_or_else(|_| Vec::new(), |set| grids(&set.patches().iter().map(|p| p.name.as_str()).collect::<Vec<_>>()))
+    }
+
     /// Patches of the chart with what a picture has of them, and the standard deviations of that.
-    pub fn recorded_patches(&self, patches: &[MeasuredPatch]) -> Result<(Vec<RecordedPatch>, Vec<[f64; 3]>), String> {
+    pub fn recorded_patches(
+        &self,
+        patches: &[MeasuredPatch],
+        grid: [usize; 2],
+    ) -> Result<(Vec<RecordedPatch>, Vec<[f64; 3]>), String> {
         let radiances = self.patch_radiances().map_err(|error: SceneError| error.to_string())?;
+        let radiances = in_grid(radiances, grid);
         if radiances.len() != patches.len() {
             let (chart, found) = (&self.document.chart, patches.len());
-            return Err(format!("{chart} has {} patches, the picture {found}: choose another chart", radiances.len()));
+            return Err(format!(
+                "{chart} has {} patches, the picture {found}: choose another chart or grid",
+                radiances.len()
+            ));
         }
         // No value stands for too many clipped pixels.
         let signal = |value: Option<f64>| Signal::new(value.unwrap_or(f64::INFINITY), f64::INFINITY);

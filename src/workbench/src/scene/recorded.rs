@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use chromascope_core::camera::chart_grid::named_places;
 use chromascope_core::camera::recorded::{
     Freedom, LinkKind, RESAMPLES, RankRange, RecordedError, RecordedFit, rank_ranges,
 };
@@ -84,6 +85,14 @@ impl Scene<'_> {
         let patches = self.patches()?;
         Ok(patches.patches().iter().map(|patch| (patch.name.clone(), lit(&patch.grid, &light.grid))).collect())
     }
+}
+
+/// Patches row by row of a picture's grid: by the places that their names state, else in their own order.
+pub fn in_grid<T>(patches: Vec<(String, T)>, grid: [usize; 2]) -> Vec<(String, T)> {
+    let Some(places) = named_places(patches.iter().map(|(name, _)| name.as_str()), grid) else { return patches };
+    let mut placed: Vec<_> = places.into_iter().zip(patches).collect();
+    placed.sort_by_key(|(place, _)| *place);
+    placed.into_iter().map(|(_, patch)| patch).collect()
 }
 
 pub const CHANNELS: [&str; 3] = ["red", "green", "blue"];

@@ -1,10 +1,10 @@
-//! Cameras measured from shots of a chart, with the built-in tables as prior.
+//! Cameras measured from shots of a chart or from narrow bands, with the built-in tables as prior.
 
 use std::sync::Arc;
 
 use chromascope_core::camera::recorded::RecordedPatch;
 use chromascope_core::query::{Ask, ChartMeasurement, ChartRecoveryQuery, ChartShot, Query, Shared};
-use chromascope_core::recovery::{Library, Shot};
+use chromascope_core::recovery::{Library, NarrowBandRecovery, NarrowBands, Shot};
 use chromascope_core::spectral::{GridSpectrum, Sensor};
 
 use super::metrics::SetPlace;
@@ -41,7 +41,7 @@ impl Query for MeasuredCameraQuery {
         };
         let query = ChartRecoveryQuery {
             other_charts: self.charts.iter().filter_map(chart).collect(),
-            library: Shared::new(library(&self.cameras, &sites, ask)?),
+            library: Shared::new(Library::new(sensors(&self.cameras, ask)?, &sites)),
             shots: self.shots.clone(),
             daylight: Shared::new(standards.daylight.clone()),
             other_lights: self.other_lights.clone(),
@@ -51,16 +51,30 @@ impl Query for MeasuredCameraQuery {
     }
 }
 
+/// Question for a camera's sensitivities by narrow bands.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct MeasuredBandsQuery {
+    bands: Shared<NarrowBands>,
+    cameras: Vec<SetPlace>,
+}
+
+impl Query for MeasuredBandsQuery {
+    type Answer = Result<Arc<NarrowBandRecovery>>;
+    const NAME: &'static str = "camera measured from narrow bands";
+    const CAPACITY: usize = 8;
+
+    fn answer(&self, ask: &impl Ask) -> Self::Answer {
+        let nm = self.bands.wavelengths_nm()?;
+        let library = Library::new(sensors(&self.cameras, ask)?, &nm);
+        Ok(Arc::new(self.bands.recover(&library)?))
+    }
+}
+
 /// Built-in cameras: what users measured takes no part in the prior.
 pub fn built_in_cameras(catalog: &Catalog) -> Vec<SetPlace> {
     let place =
         |entry: &Entry| SetPlace { kind: SetKind::Camera, name: entry.name.clone(), place: entry.place.clone() };
     catalog.of_kind(SetKind::Camera).map(place).collect()
-}
-
-/// Tables of cameras for curves at some wavelengths.
-pub fn library(cameras: &[SetPlace], wavelengths_nm: &[f64], ask: &impl Ask) -> Result<Library> {
-    Ok(Library::new(sensors(cameras, ask)?, wavelengths_nm))
 }
 
 /// Tables by their names.
@@ -75,20 +89,27 @@ pub(super) fn sensors(cameras: &[SetPlace], ask: &impl Ask) -> Result<Vec<(Strin
 
 impl Scene<'_> {
     /// Patches recorded under the light on the scene, with the standard deviations of their values by the pixels where they are known, and
-    /// of what model and recording differ by beyond that, relative to a value. With `is_daylight` the light on the scene stands in for
+    /// of what model and recording differ by beyond that, relative to a value; in rows of so many
+    /// columns, where known. With `is_daylight` the light on the scene stands in for
     /// daylight of unknown temperature.
     pub fn chart_shot(
         &self,
-        patches: Vec<RecordedPatch>,
-        pixels: &[[f64; 3]],
+        (patches, pixels): (Vec<RecordedPatch>, Vec<[f64; 3]>),
+        columns: Option<usize>,
         relative: f64,
         is_daylight: bool,
     ) -> Result<ChartShot> {
         let light = (*self.light()?.grid).clone();
         let name = if is_daylight { "daylight".to_owned() } else { self.light_name() };
         let (chart, picture) = (self.document.chart.clone(), String::new());
-        let shot = Shared::new(Shot::new(patches, light, pixels, relative));
-        Ok(ChartShot { shot, is_daylight, light: name, chart, picture })
+        let mut shot = Shot::new(patches, light, &pixels, relative);
+        shot.columns = columns.or(shot.columns);
+        Ok(ChartShot { shot: Shared::new(shot), is_daylight, light: name, chart, picture })
+    }
+
+    /// Question for the sensitivities of the camera that recorded narrow bands.
+    pub fn measured_bands(&self, bands: NarrowBands) -> MeasuredBandsQuery {
+        MeasuredBandsQuery { bands: Shared::new(bands), cameras: built_in_cameras(self.catalog) }
     }
 
     /// Question for the sensitivities of the camera that recorded some shots.

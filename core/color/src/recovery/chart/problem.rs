@@ -18,18 +18,19 @@ const GLARE_PRIOR: [f64; 2] = [0.005, 0.01];
 const FREE: f64 = 10.0;
 /// Smallest and first spread of the logarithm of brightness.
 const EVENNESS: [f64; 2] = [1e-3, 0.1];
-/// Patches of a chart whose places are known, and how many stand in a row.
-const GRID: [usize; 2] = [24, 6];
-/// Standard deviation of a slope of the logarithm of the light over the chart, as the root of the sum of its squares over the patches.
+/// Standard deviation of a slope of the logarithm of the light over the chart, as the root of the sum of its squares over 24 patches.
 const SLOPE: f64 = 0.2;
 const ROUNDS: usize = 30;
 
+#[derive(Default)]
 pub(super) struct Problem {
     sites: usize,
     patches: Vec<PatchKernels>,
     values: Vec<Value>,
     /// Patches of each shot.
     shots: Vec<Range<usize>>,
+    /// Unit vectors of what the light of each shot does by itself, with their deviations.
+    fields: Vec<Vec<(Vec<f64>, f64)>>,
     modes: usize,
 }
 
@@ -71,8 +72,8 @@ impl Problem {
         let kernel = |radiance: &[f64; COUNT], by: f64| -> Vec<f64> {
             basis.iter().map(|site| site.iter().zip(radiance).map(|(a, b)| a * b).sum::<f64>() * by).collect()
         };
-        let mut problem =
-            Self { sites: wavelengths_nm.len(), patches: Vec::new(), values: Vec::new(), shots: Vec::new(), modes: 0 };
+        let fields = shots.iter().map(|shot| fields(shot.patches.len(), shot.columns)).collect();
+        let mut problem = Self { sites: wavelengths_nm.len(), fields, ..Self::default() };
         for shot in shots {
             let first = problem.patches.len();
             let brightest =
@@ -207,8 +208,7 @@ impl Problem {
     /// `I/τ² + Σ u uᵀ (1/s² − 1/τ²)` for the brightnesses of each shot, with the [`fields`] u of its light and their deviations s.
     fn set_evenness(&self, precision: &mut [f64], spread: f64) {
         let size = self.lights().end;
-        for shot in &self.shots {
-            let fields = fields(shot.len());
+        for (shot, fields) in self.shots.iter().zip(&self.fields) {
             for (i, j) in shot.clone().flat_map(|i| shot.clone().map(move |j| (i, j))) {
                 let own = if i == j { spread.powi(-2) } else { 0.0 };
                 let of_field =
@@ -226,12 +226,12 @@ impl Problem {
         (0..count).for_each(|i| columns[(self.bright() + i) * count + i] = 1.0);
         let covariance = hessian.solve(columns);
         let (mut squares, mut determined) = (0.0, 0.0);
-        for shot in &self.shots {
-            let (logs, fields) = (self.logs(x, shot), fields(shot.len()));
+        for (shot, fields) in self.shots.iter().zip(&self.fields) {
+            let logs = self.logs(x, shot);
             let at = |i: usize, j: usize| covariance[(self.bright() + i) * count + j];
             let mut variance = shot.clone().map(|i| at(i, i)).sum::<f64>();
             squares += logs.iter().map(|log| log * log).sum::<f64>();
-            for (u, _) in &fields {
+            for (u, _) in fields {
                 squares -= u.iter().zip(&logs).map(|(u, log)| u * log).sum::<f64>().powi(2);
                 let pairs = || shot.clone().zip(u);
                 variance -= pairs().flat_map(|(i, u)| pairs().map(move |(j, v)| u * v * at(i, j))).sum::<f64>();
@@ -334,17 +334,18 @@ impl Problem {
 
 /// What the light on some patches does by itself, as unit vectors with the deviations of their amounts: its exposure, and a slope either
 /// way where the places of the patches are known.
-fn fields(count: usize) -> Vec<(Vec<f64>, f64)> {
+fn fields(count: usize, columns: Option<usize>) -> Vec<(Vec<f64>, f64)> {
     let unit = |deviation: f64, of: &dyn Fn(usize) -> f64| {
         let all: Vec<f64> = (0..count).map(of).collect();
         let norm = all.iter().map(|v| v * v).sum::<f64>().sqrt();
         (all.iter().map(|v| v / norm).collect(), deviation)
     };
     let mut fields = vec![unit(FREE, &|_| 1.0)];
-    if count == GRID[0] {
+    if let Some(columns) = columns.filter(|n| *n > 1 && count > *n && count.is_multiple_of(*n)) {
         let middle = |steps: usize| (steps - 1) as f64 / 2.0;
-        fields.push(unit(SLOPE, &|at| (at % GRID[1]) as f64 - middle(GRID[1])));
-        fields.push(unit(SLOPE, &|at| (at / GRID[1]) as f64 - middle(GRID[0] / GRID[1])));
+        let slope = SLOPE * (count as f64 / 24.0).sqrt();
+        fields.push(unit(slope, &|at| (at % columns) as f64 - middle(columns)));
+        fields.push(unit(slope, &|at| (at / columns) as f64 - middle(count / columns)));
     }
     fields
 }

@@ -13,8 +13,10 @@ use crate::catalog::file_store;
 use crate::catalog::folders::{FolderFiles, NO_SPECTRA, leave_companions_out};
 use crate::catalog::import::{Imported, Origin, import_as};
 use crate::catalog::meshes::is_mesh;
+use crate::catalog::narrow_bands::{is_pass, read_pass};
 use crate::catalog::spectral_images::{is_same_image, is_spectral_image};
 use crate::document::imported::{Fingerprint, ImportOverrides, ImportedSet};
+use crate::document::measurement::MeasuredPass;
 use crate::document::session::{self, is_session};
 use crate::format::{Tally, file_name, io_failure, io_reason};
 
@@ -35,6 +37,7 @@ pub enum Request {
 #[derive(Default)]
 struct Harvest {
     sets: Vec<Imported>,
+    passes: Vec<MeasuredPass>,
     failures: Vec<String>,
     failed: Vec<Fingerprint>,
     paths: Vec<PathBuf>,
@@ -83,6 +86,15 @@ pub(super) fn open(
                 continue;
             }
         };
+        if overrides.is_none() && is_pass(&bytes) {
+            match read_pass(&bytes) {
+                Ok(bands) => {
+                    harvest.passes.push(MeasuredPass { file: origin.name, contents: origin.fingerprint, bands });
+                }
+                Err(error) => harvest.failures.push(format!("{}: {error}", origin.name)),
+            }
+            continue;
+        }
         harvest.from_memory |= overrides.is_some();
         let from_memory = overrides.is_none();
         let overrides = overrides.unwrap_or_else(|| remembered(&bytes));
@@ -250,6 +262,9 @@ impl Harvest {
             self.notes.push(format!("Not opened: {} meshes, images or sessions.", events.len()));
             events.clear();
         }
+        if !self.passes.is_empty() {
+            events.push(OpenedEvent::Bands(self.passes));
+        }
         if !self.skipped.is_empty() || self.has_folder && self.sets.is_empty() {
             self.notes.push(format!("Skipped: {}.", self.skipped));
         }
@@ -283,7 +298,7 @@ impl Harvest {
     fn failure(&self) -> Option<String> {
         let first = self.failures.first()?;
         // A folder that cannot be read is one of those requested.
-        let count = self.failures.len() + self.sets.len();
+        let count = self.failures.len() + self.sets.len() + self.passes.len();
         if count == 1 {
             return Some(first.clone());
         }

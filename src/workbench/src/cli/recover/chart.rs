@@ -13,7 +13,7 @@ use crate::catalog::chart_picture::is_picture;
 use crate::catalog::recorded::Levels;
 use crate::cli::arguments::values;
 use crate::cli::error::{CliError, Result, refused};
-use crate::cli::identify::{corner, picture, recorded_table};
+use crate::cli::identify::{corner, grid, picture, recorded_table};
 use crate::cli::outputs::{check, show, stream};
 use crate::cli::request::{Request, in_file};
 use crate::document::start::Start;
@@ -36,9 +36,12 @@ pub(super) struct ChartArguments {
     /// The patches' reflectances: a chart, or a file; not for tables that have their own
     #[arg(long, value_name = "NAME|FILE")]
     chart: Option<OsString>,
-    /// Corners of the grid of patches in the pictures, as for `identify` [default: the chart is searched]
+    /// Outer corners of the grid of patches in the pictures, as for `identify` [default: a chart of 24 patches is searched]
     #[arg(long, value_name = "x,y", num_args = 4, value_parser = corner)]
     corners: Vec<[f64; 2]>,
+    /// Patches across and down the chart in the pictures, as for `identify`: 14x10 for a ColorChecker SG, with your own --chart
+    #[arg(long, visible_alias = "layout", value_name = "CxR", default_value = "6x4", value_parser = grid)]
+    grid: [usize; 2],
     /// The light of each file, or of all: a name, a file with one curve, `daylight:K`, `blackbody:K`, or `daylight` of unknown temperature
     #[arg(long, value_name = "NAME|FILE", required = true)]
     illuminant: Vec<OsString>,
@@ -141,20 +144,22 @@ fn shots(request: &mut Request, arguments: &ChartArguments) -> Result<(Vec<Chart
         } else {
             request.set_light(light)?;
         }
-        let photo = if is_picture(file) { Some(picture(request, file, &arguments.corners)?) } else { None };
+        let photo =
+            if is_picture(file) { Some(picture(request, file, (&arguments.corners, arguments.grid))?) } else { None };
         let table = if photo.is_some() { None } else { Some((*recorded_table(request, file, levels)?).clone()) };
         let results = Results::default();
         let scene = Scene { document: &request.document, catalog: &request.catalog, results: &results };
         let own_spectra = table.is_some() && arguments.chart.is_none();
-        let (patches, pixels) = match photo {
+        let columns = photo.as_ref().map(|_| arguments.grid[0]);
+        let recorded = match photo {
             Some((photo, corners)) => {
                 camera = camera.or_else(|| photo.camera());
-                let patches = photo.patches(corners).map_err(|error| in_file(file, error))?;
-                scene.recorded_patches(&patches).map_err(|error| in_file(file, error))?
+                let patches = photo.patches(corners, arguments.grid).map_err(|error| in_file(file, error))?;
+                scene.recorded_patches(&patches, arguments.grid).map_err(|error| in_file(file, error))?
             }
             None => (table.unwrap_or_default(), Vec::new()),
         };
-        let mut shot = scene.chart_shot(patches, &pixels, arguments.noise / 100.0, is_daylight)?;
+        let mut shot = scene.chart_shot(recorded, columns, arguments.noise / 100.0, is_daylight)?;
         shot.picture = display_path(file);
         if own_spectra {
             shot.chart = format!("reflectances in {}", shot.picture);
