@@ -189,7 +189,7 @@ fn a_file_that_failed_is_used_once_it_reads() {
     let file = window.state().opened.files()[0].origin.fingerprint;
     window.state_mut().push(Command::ShowImport(ImportItem::File(file), None));
     settle(&mut window);
-    assert!(says(&window, "ångströms or wave numbers"));
+    assert!(says(&window, "ångströms, wave numbers"));
     choose(&mut window, "Wavelengths in", "1/cm");
     assert!(own(&window).is_empty(), "it is only used when that is asked for");
     window.get_by_role_and_label(Role::Button, "Use").click();

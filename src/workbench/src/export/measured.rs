@@ -47,7 +47,8 @@ pub fn curves(recovery: &ChartRecovery) -> Table {
 pub fn bands(found: &NarrowBandRecovery) -> Table {
     let heads = ["nm", "red", "±", "green", "±", "blue", "±"];
     let heads = heads.map(|name| column(name, 6, if name == "nm" { 0 } else { 4 }));
-    let mut table = Table::new(heads.into_iter().chain(["quotient R, G, B".into()]));
+    let quotients = ["quotient R", "quotient G", "quotient B"].map(Column::from);
+    let mut table = Table::new(heads.into_iter().chain(quotients));
     let (own, standard) = (&found.curves, found.curves.standard());
     let peak = found.quotient.iter().flatten().copied().fold(f64::MIN_POSITIVE, f64::max);
     for (k, nm) in own.wavelengths_nm.iter().enumerate() {
@@ -60,7 +61,7 @@ pub fn bands(found: &NarrowBandRecovery) -> Table {
             }
         };
         let cells = [*nm].into_iter().chain([0, 1, 2].into_iter().flat_map(pair)).map(Cell::from);
-        table.push(cells.chain([Cell::from([0, 1, 2].map(quotient).join("  "))]));
+        table.push(cells.chain([0, 1, 2].map(quotient).map(Cell::from)));
     }
     table
 }
@@ -126,7 +127,7 @@ pub const COLUMNS: &str = "ΔE*00, mean and largest over the patches. Predicted:
 pub const UNCERTAINTY: &str = "± is expanded (k = 2): the value is within it in about 95 of 100 cases. In Rank the ± of a metric is that of these \
     curves, and a rank is a range where cameras do not differ at 95 %.";
 /// Description of [`matrix`].
-pub const MATRIX: &str = "from raw RGB balanced to white = 1 to XYZ, fitted to the recorded patches. ICC and CLF hold this matrix; in the DCP \
+pub const MATRIX: &str = "from raw RGB balanced to white = 1 to XYZ, fitted to the recorded patches. ICC (adapted to D50) and CLF (to ACES) are made of the first light's; in the DCP \
     it is the ForwardMatrix (adapted to D50), and with the balance the ColorMatrix";
 /// Distances above which a camera is very unlike the library's: from their mean in standard deviations, and from the nearest table.
 const UNLIKE: [f64; 2] = [1.2, 0.2];
@@ -159,6 +160,16 @@ pub fn conditions(measured: &ChartMeasurement) -> Vec<String> {
     lines.extend(measured.daylight.map(|[kelvin, deviation]| {
         format!("Daylight of {} K ± {} K (k = 2)", fixed(kelvin, 0), fixed(2.0 * deviation, 0))
     }));
+    let is_daylight =
+        |light: &str| light.starts_with("daylight") || light.starts_with('D') && light[1..].parse::<f64>().is_ok();
+    if let [(light, _)] = &measured.profiles[..]
+        && measured.daylight.is_none()
+        && is_daylight(light)
+    {
+        lines.push(format!(
+            "One shot hardly tells {light} from another daylight: name daylight of unknown temperature unless it was measured, or add a shot under a lamp"
+        ));
+    }
     lines
 }
 
