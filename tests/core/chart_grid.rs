@@ -95,5 +95,5 @@ fn names_place_patches_with_letters_for_columns_or_rows() {
     }
     assert_eq!(grids(&["dark skin"; 24])[0], [6, 4]);
     assert_eq!(grids(&["prime"; 13]), [[13, 1], [1, 13]]);
-    assert!(grids(&[]).is_empty() && grids(&["many"; 20_000]).is_empty());
+    assert!(grids(&[]).is_empty() && grids(&vec!["many"; 20_000]).is_empty());
 }

@@ -53,13 +53,17 @@ impl Cholesky {
             let (done, own) = right.split_at_mut(k * width);
             let own = &mut own[..width];
             subtract_all(done.chunks(width).enumerate().map(|(j, of)| (self.row(j)[k], of)), own);
-            own.iter_mut().for_each(|value| *value /= self.row(k)[k]);
+            for value in own {
+                *value /= self.row(k)[k];
+            }
         }
         for k in (0..self.size).rev() {
             let (own, done) = right.split_at_mut((k + 1) * width);
             let (row, own) = (self.row(k), &mut own[k * width..]);
             subtract_all(row[k + 1..].iter().copied().zip(done.chunks(width)), own);
-            own.iter_mut().for_each(|value| *value /= row[k]);
+            for value in own {
+                *value /= row[k];
+            }
         }
         right
     }

@@ -90,6 +90,6 @@ fn a_list_named_at_its_first_wavelength_keeps_it() {
 
 #[test]
 fn a_range_that_is_infrared_in_nanometers_and_seen_in_angstroms_is_asked_for() {
-    let rows: String = (0..24).map(|i| format!("{} 0.{:02}\n", 1150 + 1000 * i, i + 10)).collect();
-    assert!(matches!(error(&format!("#lk f\n{rows}")), ReadError::AmbiguousUnit { .. }));
+    let rows: Vec<String> = (0..24).map(|i| format!("{} 0.{}", 1150 + 1000 * i, i + 10)).collect();
+    assert!(matches!(error(&format!("#lk f\n{}\n", rows.join("\n"))), ReadError::AmbiguousUnit { .. }));
 }

@@ -350,14 +350,14 @@ struct Blocks {
     row: usize,
     across: usize,
     known: Vec<Block>,
-    /// Samples where blocks meet, if asked for; nothing where no mesh is seen or it is turned away from the light.
-    corners: Vec<Option<Option<bool>>>,
+    /// Of samples where blocks meet; mixed where no mesh is seen or it is turned away from the light.
+    corners: Vec<Block>,
 }
 
 impl Blocks {
     fn new(row: usize, columns: usize) -> Self {
         let across = columns.div_ceil(BLOCK);
-        let (known, corners) = (vec![Block::Unknown; across * ROWS], vec![None; (across + 1) * (ROWS + 1)]);
+        let (known, corners) = (vec![Block::Unknown; across * ROWS], vec![Block::Unknown; (across + 1) * (ROWS + 1)]);
         Self { row, across, known, corners }
     }
 }
@@ -518,13 +518,16 @@ impl Scene<'_> {
         let (across, first) = (blocks.across, blocks.row);
         let (row, column) = (block / across, block % across);
         let mut of_corner = |(row, column): (usize, usize)| {
-            *blocks.corners[row * (across + 1) + column].get_or_insert_with(|| {
+            let known = &mut blocks.corners[row * (across + 1) + column];
+            if let Block::Unknown = known {
                 let row = (first + row * BLOCK).min(size.rows() - 1);
                 let at = row * size.columns() + (column * BLOCK).min(size.columns() - 1);
                 let hit = self.visibility.hits()[at];
-                let (place, angles) = hit.is_some().then(|| self.checked_angles(at, hit))?;
-                (angles.cos_i > 0.0 && angles.cos_s > 0.0).then(|| trace(&place, at as u32))
-            })
+                let seen = hit.is_some().then(|| self.checked_angles(at, hit));
+                let lit = seen.filter(|(_, angles)| angles.cos_i > 0.0 && angles.cos_s > 0.0);
+                *known = lit.map_or(Block::Mixed, |(place, _)| Block::Whole(trace(&place, at as u32)));
+            }
+            if let Block::Whole(is_shadowed) = *known { Some(is_shadowed) } else { None }
         };
         let shadow = of_corner((row, column))?;
         let others = [(row, column + 1), (row + 1, column), (row + 1, column + 1)];
