@@ -65,12 +65,8 @@ pub fn run(paths: Vec<PathBuf>, start: Instant) -> Result<(), WindowError> {
         APP_ID,
         options,
         Box::new(move |cc| {
-            let known: Option<SavedView> = cc.storage.and_then(|s| eframe::get_value(s, LAYOUT_KEY));
-            let mut saved = known.unwrap_or_else(|| SavedView::first(files::reduces_motion()));
-            let earlier = cc.storage.and_then(|s| eframe::get_value(s, LAYOUT_KEY));
-            if let Some(earlier) = &earlier {
-                saved.open_earlier(earlier);
-            }
+            let known = cc.storage.and_then(|storage| serde_json::from_str(&storage.get_string(LAYOUT_KEY)?).ok());
+            let saved = known.unwrap_or_else(|| SavedView::first(files::reduces_motion()));
             let history = History::new(kept.saved_document());
             let mut app = ChromascopeApp::new(&cc.egui_ctx, history, saved, kept);
             (app.place, app.first_frame) = (WindowPlace::restored(cc.storage), Some(start));
@@ -183,7 +179,11 @@ impl ChromascopeApp {
             eframe::set_value(&mut values, WINDOW_KEY, settings);
         }
         self.ctx.memory(|memory| eframe::set_value(&mut values, MEMORY_KEY, memory));
-        eframe::set_value(&mut values, LAYOUT_KEY, &self.saved_view());
+        // In the form of a session: a second one would be code for each of its types.
+        match serde_json::to_string(&self.saved_view()) {
+            Ok(view) => eframe::Storage::set_string(&mut values, LAYOUT_KEY, view),
+            Err(error) => log::warn!("the layout could not be saved: {error}"),
+        }
         self.files.save_layout(&values.0, now);
     }
 }

@@ -8,9 +8,11 @@ use chromascope::export::Paper;
 use chromascope::figures::chromaticity::shown::{DiagramFit, DiagramView, Fit, FitKey};
 use chromascope::figures::kind::FigureKind;
 use chromascope::figures::look::FigureLook;
+use chromascope::figures::render::difference::{GROUND, Scale};
 use chromascope::figures::render::headline::{Detail, Measure};
 use chromascope::figures::render::returned::{self, Words};
 use chromascope::figures::{differences, strip};
+use chromascope::palette::difference_ramp;
 use chromascope::plot_item::SensorId;
 use chromascope::profiler::plans::ErrorBounds;
 use chromascope::results::Results;
@@ -21,6 +23,7 @@ use chromascope_core::query::render::Roughness;
 use chromascope_core::query::render::difference::{BrightSamples, Difference};
 use chromascope_core::reflectance::Normalization;
 use chromascope_workbench::format::dropped_rows;
+use chromascope_workbench::names::shortest;
 use spectral_file::{Dropped, DroppedRow};
 
 #[test]
@@ -193,4 +196,48 @@ fn ends_of_axes_are_numbers_written_there_and_short_names_are_told() {
     }
     let differences = printed(&differences::KIND, [0.0; 2], [0.0; 2]);
     assert!(differences.caption.contains(" 5D II: Canon EOS 5D Mark II; D70: Nikon D70"), "{}", differences.caption);
+}
+
+#[test]
+fn differences_reach_near_the_end_of_their_scale() {
+    let ratio = |largest: f32| largest / Scale::holding(largest, largest, Metric::DELTA_E_2000).end;
+    assert!((200..3000).all(|hundredths| (0.6..=1.0).contains(&ratio(hundredths as f32 / 100.0))));
+}
+
+#[test]
+fn the_ground_is_no_color_of_the_scale() {
+    let far = |a: [u8; 4], b: [u8; 3]| (0..3).any(|i| a[i].abs_diff(b[i]) > 40);
+    let colors = || (0..=100).map(|share| difference_ramp(share as f32 / 100.0));
+    assert!(colors().all(|color| far(GROUND, color)));
+}
+
+#[test]
+fn ticks_are_round_in_the_metrics_units() {
+    let ticks =
+        |largest, metric| Scale::holding(largest, largest, metric).ticks().map(|(_, words)| words).collect::<Vec<_>>();
+    assert_eq!(ticks(12.1, Metric::DELTA_E_2000), ["0", "5", "10", "15"]);
+    assert_eq!(ticks(0.9, Metric::DELTA_E_2000), ["0", "0.2", "0.4", "0.6", "0.8", "1"]);
+    assert_eq!(ticks(0.14, Metric::XY), ["0", "0.05", "0.1", "0.15"]);
+    assert_eq!(ticks(10.6, Metric::DELTA_E_2000), ["0", "3", "6", "9", "12"]);
+    assert_eq!(ticks(7e9, Metric::UV_PRIME).last().map(String::as_str), Some("≥ 1"));
+    let few_are_larger = Scale::holding(0.05, 0.12, Metric::XY).ticks().last();
+    assert_eq!(few_are_larger, Some((1.0, "≥ 0.05".to_owned())));
+}
+
+#[test]
+fn names_keep_what_distinguishes_them() {
+    let all = [
+        "Canon EOS 5D Mark III",
+        "Canon EOS 5D Mark IV",
+        "Nikon D70 (2007 figure)",
+        "Nikon D70 (UPenn 2011)",
+        "Nikon D700",
+    ];
+    let expected = ["5D III", "5D IV", "D70 (2007 figure)", "D70 (UPenn 2011)", "D700"];
+    assert_eq!(shortest(all.into_iter()), expected);
+    assert_eq!(shortest(["D70 (2007)"].into_iter()), ["D70"]);
+    assert_eq!(
+        shortest(["TEST (measured)", "TEST (measured 2)"].into_iter()),
+        ["TEST (measured)", "TEST (measured 2)"]
+    );
 }

@@ -27,26 +27,3 @@ fn formed(name: &str, (brackets, maker, series): (bool, bool, bool)) -> String {
     let words = model.split(' ').filter(|word| !series || !SERIES.contains(word));
     words.collect::<Vec<_>>().join(" ")
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_keep_what_distinguishes_them() {
-        let all = [
-            "Canon EOS 5D Mark III",
-            "Canon EOS 5D Mark IV",
-            "Nikon D70 (2007 figure)",
-            "Nikon D70 (UPenn 2011)",
-            "Nikon D700",
-        ];
-        let expected = ["5D III", "5D IV", "D70 (2007 figure)", "D70 (UPenn 2011)", "D700"];
-        assert_eq!(shortest(all.into_iter()), expected);
-        assert_eq!(shortest(["D70 (2007)"].into_iter()), ["D70"]);
-        assert_eq!(
-            shortest(["TEST (measured)", "TEST (measured 2)"].into_iter()),
-            ["TEST (measured)", "TEST (measured 2)"]
-        );
-    }
-}

@@ -126,7 +126,7 @@ fn the_layout_is_the_first_windows_and_written_whole() {
     eframe::App::on_exit(first.state_mut(), None);
     // As eframe reads it.
     let values: std::collections::HashMap<String, String> = ron::from_str(&layout().unwrap()).unwrap();
-    let saved: SavedView = ron::from_str(&values["layout"]).unwrap();
+    let saved: SavedView = serde_json::from_str(&values["layout"]).unwrap();
     assert_eq!(saved, first.state().saved_view());
     assert!(values.contains_key("egui"));
 }

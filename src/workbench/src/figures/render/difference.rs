@@ -40,7 +40,8 @@ impl Scale {
         Self::holding(most as f32, largest as f32, shot.query.metric())
     }
 
-    fn holding(most: f32, largest: f32, metric: Metric) -> Self {
+    /// Scale of differences of which 95 % are below `most`, the largest being `largest`.
+    pub fn holding(most: f32, largest: f32, metric: Metric) -> Self {
         let unit = 0.1_f32.powi(i32::try_from(metric.decimals).unwrap_or(2) - 2);
         let ends = Self::ENDS.iter().flat_map(|(steps, ends)| ends.iter().map(|end| (*end, *steps)));
         let least = ends.filter(|(end, _)| end * unit >= most).min_by(|a, b| a.0.total_cmp(&b.0));
@@ -83,7 +84,7 @@ pub(super) fn scale(scale: Scale, name: &str, [x, y]: [f64; 2], width: f64, ink:
 }
 
 /// The ground of maps and of the hatch: darker than any color of the scale, whatever the surround.
-const GROUND: [u8; 4] = [0x12, 0x12, 0x12, 255];
+pub const GROUND: [u8; 4] = [0x12, 0x12, 0x12, 255];
 /// Diagonal lines where no light falls.
 const HATCH: [u8; 4] = [0x6A, 0x6A, 0x6A, 255];
 /// Distance of these lines in pixels.
@@ -113,36 +114,4 @@ pub fn map(shot: &RenderedFrame, at: usize, end: f32) -> ([usize; 2], Vec<u8>) {
         pixels[pixel(sample)] = [r, g, b, 255];
     }
     ([width, height], rgba)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn data_reach_near_the_end_of_the_scale() {
-        let ratio = |largest: f32| largest / Scale::holding(largest, largest, Metric::DELTA_E_2000).end;
-        assert!((200..3000).all(|hundredths| (0.6..=1.0).contains(&ratio(hundredths as f32 / 100.0))));
-    }
-
-    #[test]
-    fn ground_and_hatch_are_no_colors_of_the_scale() {
-        let far = |a: [u8; 4], b: [u8; 3]| (0..3).any(|i| a[i].abs_diff(b[i]) > 40);
-        let colors = || (0..=100).map(|share| difference_ramp(share as f32 / 100.0));
-        assert!(colors().all(|color| far(GROUND, color)));
-    }
-
-    #[test]
-    fn ticks_are_round_in_the_metrics_units() {
-        let ticks = |largest, metric| {
-            Scale::holding(largest, largest, metric).ticks().map(|(_, words)| words).collect::<Vec<_>>()
-        };
-        assert_eq!(ticks(12.1, Metric::DELTA_E_2000), ["0", "5", "10", "15"]);
-        assert_eq!(ticks(0.9, Metric::DELTA_E_2000), ["0", "0.2", "0.4", "0.6", "0.8", "1"]);
-        assert_eq!(ticks(0.14, Metric::XY), ["0", "0.05", "0.1", "0.15"]);
-        assert_eq!(ticks(10.6, Metric::DELTA_E_2000), ["0", "3", "6", "9", "12"]);
-        assert_eq!(ticks(7e9, Metric::UV_PRIME).last().map(String::as_str), Some("≥ 1"));
-        let few_are_larger = Scale::holding(0.05, 0.12, Metric::XY).ticks().last();
-        assert_eq!(few_are_larger, Some((1.0, "≥ 0.05".to_owned())));
-    }
 }
