@@ -357,9 +357,9 @@ fn whole<'a>(
         let end = next.as_ptr() as usize - section.text.as_ptr() as usize + next.len();
         quotes += next.matches('"').count();
         let text = &section.text[start..end];
-        if text.len() > LONGEST || quotes % 2 == 0 && !dialect.closes_quotes(text) {
+        if text.len() > LONGEST || quotes.is_multiple_of(2) && !dialect.closes_quotes(text) {
             break;
-        } else if quotes % 2 == 0 {
+        } else if quotes.is_multiple_of(2) {
             *lines = ahead;
             return text;
         }
