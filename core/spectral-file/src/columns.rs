@@ -161,6 +161,11 @@ impl Columns {
             }
             Row::Numbers { cells, filled } => match self.broken.take() {
                 None => self.push(number, cells, filled),
+                // Numbers without a wavelength, below text: it goes on.
+                Some(broken) if !broken.begins_with_number && self.is_without_wavelength() => {
+                    self.broken = Some(broken);
+                    Ok(())
+                }
                 Some(mut broken) if cells != self.width && filled != self.width => {
                     broken.others += usize::from(cells > 1);
                     let second = broken.others > 1;
@@ -254,6 +259,10 @@ impl Columns {
         let wavelengths = &self.cells[self.named.unwrap_or(0).min(self.cells.len() - 1)];
         let (Some(&first), Some(&last)) = (wavelengths.first(), wavelengths.last()) else { return false };
         self.row.get(self.named.unwrap_or(0)).is_some_and(|&value| (value - last) * (last - first) <= 0.0)
+    }
+
+    fn is_without_wavelength(&self) -> bool {
+        self.row.get(self.named.unwrap_or(0)).is_none_or(|value| value.is_nan())
     }
 
     fn push(&mut self, number: usize, cells: usize, filled: usize) -> Result<(), ReadError> {

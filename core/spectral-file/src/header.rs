@@ -346,18 +346,22 @@ fn whole<'a>(
     dialect: Dialect,
     lines: &mut (impl Iterator<Item = (usize, &'a str)> + Clone),
 ) -> &'a str {
-    const MOST: usize = 8;
+    const LONGEST: usize = 4096;
     if !line.contains('"') || dialect.closes_quotes(line) {
         return line;
     }
     let mut ahead = lines.clone();
     let start = line.as_ptr() as usize - section.text.as_ptr() as usize;
-    for _ in 0..MOST {
-        let Some((_, next)) = ahead.next() else { break };
+    let mut quotes = line.matches('"').count();
+    while let Some((_, next)) = ahead.next() {
         let end = next.as_ptr() as usize - section.text.as_ptr() as usize + next.len();
-        if dialect.closes_quotes(&section.text[start..end]) {
+        quotes += next.matches('"').count();
+        let text = &section.text[start..end];
+        if text.len() > LONGEST || quotes.is_multiple_of(2) && !dialect.closes_quotes(text) {
+            break;
+        } else if quotes.is_multiple_of(2) {
             *lines = ahead;
-            return &section.text[start..end];
+            return text;
         }
     }
     line

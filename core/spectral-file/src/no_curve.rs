@@ -17,7 +17,10 @@ pub(super) const FEWEST_ROWS: usize = 3;
 const NAMES: &str = "temperature|temp|temp.|t_amb|ambient temperature|detector temperature|ccd temperature|temperatur|\
     température|temperatura|time|elapsed time|elapsed|timestamp|time stamp|date|day|hour|zeit|temps|tiempo|integration time|\
     exposure|exposure time|humidity|relative humidity|rel. humidity|imgs|bandwidth|fwhm|pressure|air pressure|voltage|battery|battery voltage|\
-    altitude|latitude|longitude";
+    altitude|latitude|longitude|calibration";
+
+/// What detectors give, recorded beside what was made of it: last words of names.
+const SIGNALS: &str = "current|photocurrent|voltage";
 
 const UNITS: &str = "°c|℃|deg c|degc|°f|℉|° c|celsius|kelvin|seconds|ms|hpa|mbar|kpa|%rh|% rh|rh";
 
@@ -26,7 +29,8 @@ pub(super) fn leave_out(grid: &mut Grid, log: &mut Log<'_>) {
     if is_own(grid) {
         return;
     }
-    let marks: Vec<bool> = grid.curves.iter().map(is_companion).collect();
+    let made = grid.curves.iter().any(|curve| header_terms::role(&curve.label).is_some());
+    let marks: Vec<bool> = grid.curves.iter().map(|curve| is_companion(curve, made)).collect();
     let count = marks.iter().filter(|mark| **mark).count();
     if count == grid.curves.len() {
         return;
@@ -41,7 +45,8 @@ fn is_own(grid: &Grid) -> bool {
     !grid.header.own.is_empty()
 }
 
-fn is_companion(curve: &RawCurve) -> bool {
+/// `made` says that another column is what was made of signals.
+fn is_companion(curve: &RawCurve, made: bool) -> bool {
     const LONGEST: usize = 60;
     if !curve.named || curve.name.len() > LONGEST || curve.label.len() > 2 * LONGEST {
         return false;
@@ -53,7 +58,8 @@ fn is_companion(curve: &RawCurve) -> bool {
         inside('(', ')') || inside('[', ']')
     });
     let bare = name.split(['(', '[']).next().unwrap_or_default().trim().replace('_', " ");
-    let named = is_one(&bare, NAMES) || is_one(&name, NAMES);
+    let signal = made && bare.rsplit(' ').next().is_some_and(|word| is_one(word, SIGNALS));
+    let named = signal || is_one(&bare, NAMES) || is_one(&name, NAMES);
     let counts =
         header_terms::is_count(&bare) && !bare.contains(' ') && curve.values.len() > 2 && counts(&curve.values);
     // What names a quantity of light is a spectrum, whatever stands in brackets.
@@ -134,11 +140,15 @@ fn raw_marks(curves: &[RawCurve]) -> Option<Vec<bool>> {
     let jaz = letters && curves.len() >= 2 && curves.iter().any(|curve| curve.name == "P");
     let processed = curves.iter().any(is_processed);
     let reflected = curves.iter().any(|curve| curve.name.eq_ignore_ascii_case("reflectance"));
+    let starts = |curve: &RawCurve, start: &str| curve.label.to_lowercase().starts_with(start);
+    // The logarithm of what stands beside it.
+    let logged = curves.iter().any(|curve| starts(curve, "reflect."));
     let raw = |curve: &RawCurve| {
         let raw = curve.label.to_lowercase().contains("count") || is_raw_name(&curve.name);
         // Light that came from the sample is recorded beside its reflectance.
         let light = reflected && is_one(&curve.name.to_lowercase(), "radiance|irradiance");
-        if jaz { curve.name != "P" } else { light || processed && !is_processed(curve) && raw }
+        let log = logged && starts(curve, "-log reflect.");
+        if jaz { curve.name != "P" } else { light || log || processed && !is_processed(curve) && raw }
     };
     let marks: Vec<bool> = curves.iter().map(raw).collect();
     (marks.contains(&true) && marks.contains(&false)).then_some(marks)

@@ -37,7 +37,7 @@ pub(super) fn percent_name(text: &str) -> Option<&str> {
 }
 
 /// Returns whether a text is a whole unit of light, such as `W m-2 nm-1`, and no part of one, such as `m2/nm`.
-fn is_quotient(text: &str) -> bool {
+pub(super) fn is_quotient(text: &str) -> bool {
     const SIGNS: &str = "/.·*×^()[]-−–⁻+?\u{FFFD}";
     let written = |c: char| c.is_alphanumeric() || c.is_whitespace() || SIGNS.contains(c);
     text.chars().all(written) && units::parse(text).is_some_and(|unit| unit.start == 0)

@@ -305,12 +305,16 @@ fn is_key_and_value(layout: &Layout, cells: &[String]) -> bool {
 }
 
 /// Returns whether a line above several curves gives a number of each, such as a chromaticity, and no names: names have no fractions.
+/// Nor are numbers names that are more than the columns, such as those of a date.
 fn is_measured(layout: &Layout, cells: &[String]) -> bool {
     let Some((key, values)) = cells.split_first().filter(|(key, _)| !key.is_empty()) else { return false };
     let number = |cell: &String| match layout.dialect().parse(cell) {
         Cell::Number(value) => Some(value),
         _ => None,
     };
+    if cells.len() > layout.width && cells.iter().all(|cell| number(cell).is_some()) {
+        return true;
+    }
     let mut numbers = values.iter().map(number);
     layout.width > 2
         && !header_terms::names_wavelengths(key)
@@ -362,5 +366,6 @@ fn looks_like_unit(cell: &str) -> bool {
         && (cell.is_empty()
             || cell.starts_with(['[', '('])
             || (cell.contains(['%', '/']) && !begins_with_figure(cell))
+            || unit_text::is_quotient(cell)
             || is_one(&cell.to_ascii_lowercase(), "a.u.|counts|1|-"))
 }
