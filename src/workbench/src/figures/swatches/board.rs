@@ -327,9 +327,10 @@ impl<'a> Board<'a> {
         if is_chart && share < NUMBERED {
             return;
         }
+        // A little lower, so that no digit touches the color above.
         match note {
-            Note::Beside | Note::Close => self.marks.push(small(&words, [x1, middle], Anchor::RIGHT)),
-            Note::Above => self.marks.push(small(&words, [x0, y0 + 0.5 * NUMBER], Anchor::LEFT)),
+            Note::Beside | Note::Close => self.marks.push(small(&words, [x1, middle + 0.5], Anchor::RIGHT)),
+            Note::Above => self.marks.push(small(&words, [x0, y0 + 0.5 * NUMBER + 1.0], Anchor::LEFT)),
             Note::Bar | Note::None => {}
         }
     }
