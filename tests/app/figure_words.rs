@@ -196,7 +196,7 @@ fn ends_of_axes_are_numbers_written_there_and_short_names_are_told() {
     let strip = printed(&strip::KIND, [0.0; 2], [0.0; 2]);
     let plot = strip.panels.iter().find(|panel| panel.framed).unwrap();
     let ticks = Projection::new(plot, 1.0).x_ticks.into_iter().map(|tick| tick.label).collect::<Vec<_>>();
-    assert_eq!(ticks.join(" "), "1 1.5 2 3 4 5 7 10 20", "numbers from 5000 to 20000 K too");
+    assert_eq!(ticks.join(" "), "1 1.5 2 3 4 5 7 10 15 20", "numbers from 5000 to 20000 K too");
     let differences = printed(&differences::KIND, [0.0; 2], [0.0; 2]);
     assert!(differences.caption.contains(" 5D II: Canon EOS 5D Mark II; D70: Nikon D70"), "{}", differences.caption);
 }

@@ -228,7 +228,7 @@ pub fn figure_sized(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom, size
     let has = |end: &str| figure.panels.iter().flat_map(|panel| &panel.marks).any(|mark| mark.name.ends_with(end));
     let lines =
         if has(", line") { " Large markers on loci tell them apart, at no particular temperature." } else { "" };
-    let beyond = if has(", outside") { " Hollow triangles: points beyond the axes." } else { "" };
+    let beyond = if has(", outside") { " Hollow triangles: points beyond the axes, or at their ends." } else { "" };
     figure.caption = format!("{}{lines}{beyond}{}", caption(scene), scene.document.exaggeration.sentence());
     figure.table = table(scene);
     if room.numbers == Numbers::Visible {
