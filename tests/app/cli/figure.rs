@@ -140,11 +140,11 @@ fn axes_end_where_they_are_told_to_and_layers_are_left_out() {
 fn many_curves_are_named_in_the_caption() {
     let folder = tempfile::tempdir().expect("a folder");
     let at = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
-    let row =
-        |nm: i32| (0..14).map(|curve| format!(",{}", 0.01 * f64::from(curve + 1))).fold(nm.to_string(), |a, b| a + &b);
-    let head = (0..14).map(|curve| format!(",leaf{curve}")).collect::<String>();
-    let rows: Vec<String> = (38..=78).map(|tens| row(10 * tens)).collect();
-    fs::write(at("leaves.csv"), format!("wavelength{head}\n{}\n", rows.join("\n"))).expect("written");
+    let line =
+        |first: String, cell: &dyn Fn(u32) -> String| (0..14).fold(first, |line, i| line + "," + &cell(i)) + "\n";
+    let head = line("wavelength".to_owned(), &|curve| format!("leaf{curve}"));
+    let row = |tens: u32| line((10 * tens).to_string(), &|curve| (0.01 * f64::from(curve + 1)).to_string());
+    fs::write(at("leaves.csv"), (38..=78).fold(head, |text, tens| text + &row(tens))).expect("written");
     let done = run(&["figure", "curves", &at("leaves.csv"), "--out", &at("leaves.svg")]);
     assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
     let svg = fs::read_to_string(at("leaves.svg")).expect("a file");
