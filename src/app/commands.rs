@@ -19,6 +19,7 @@ use crate::command::Command;
 use crate::document::SetKind;
 use crate::document::imported::ImportedSet;
 use crate::export::{self, ExportError, FigureForm};
+use crate::figures::kind::{FigureKind, Need};
 use crate::figures::look::FigureLook;
 use crate::files::{DocumentSource, FileEvent, FileForm, SaveRequest};
 use crate::panes;
@@ -404,7 +405,15 @@ impl ChromascopeApp {
             _ => None,
         };
         import.focus = import.stop;
-        let keys = if pane.is_controls() { "" } else { " (F fills the window, Ctrl+E prints)" };
+        // A figure that waits for a file or a second light may have nothing to print.
+        let has_all = |kind: &FigureKind| matches!(kind.needs, Need::Nothing | Need::Pictures(_));
+        let figure = panes::by_kind(pane).and_then(|pane| pane.figure);
+        let prints = figure.is_some_and(|kind| has_all(kind) || self.on_paper(pane).is_some());
+        let keys = match (pane.is_controls(), prints) {
+            (true, _) => "",
+            (false, true) => " (F fills the window, Ctrl+E prints)",
+            (false, false) => " (F fills the window)",
+        };
         self.view.say(format!("{}{keys}", panes::title(pane)));
         // Keys that are meant for the next pane must not move what the last one had.
         ctx.memory_mut(|memory| memory.focused().map(|id| memory.surrender_focus(id)));

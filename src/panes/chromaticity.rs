@@ -9,7 +9,7 @@ use egui::{Align2, Id, Pos2, Rect, RectAlign, Tooltip, Ui, Vec2};
 use super::context::{Pane, PaneContext};
 use crate::action::{Action, SceneAction};
 use crate::command::Command;
-use crate::document::{Diagram, FIT_TARGET, SetKind};
+use crate::document::{Diagram, FIT_TARGET, LOCUS_RANGE_K, SetKind};
 use crate::figures::chromaticity::{self, Built};
 use crate::figures::look::DifferencePlane;
 use crate::figures::strip;
@@ -279,8 +279,8 @@ fn show_strip(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let now = context.scene.document.temperature_k;
     response.widget_info(|| egui::WidgetInfo::slider(true, now, "Temperature, over the distances"));
     if let Some(at) = response.interact_pointer_pos().filter(|_| response.dragged() || response.clicked()) {
-        let [mired, _] = shown.view.value(at);
-        set_temperature(1e6 / mired.clamp(50.0, 1000.0), context);
+        let [low, high] = LOCUS_RANGE_K;
+        set_temperature(strip::kelvin(shown.view.value(at)[0]).clamp(low, high), context);
     }
     if response.has_focus() {
         let step = ui.input(|input| {
@@ -294,8 +294,7 @@ fn show_strip(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         let hit = paint::nearest(&built.panel, &shown.view, at, REACH);
         let thing = hit.and_then(|hit| built.things.get(hit.tag)).cloned();
         context.view.hover(thing.as_ref());
-        let [mired, _] = shown.view.value(at);
-        let kelvin = (1e6 / mired / 10.0).round() * 10.0;
+        let kelvin = (strip::kelvin(shown.view.value(at)[0]) / 10.0).round() * 10.0;
         let mut lines = vec![format!("{kelvin:.0} K")];
         for source in context.scene.sources().iter().filter(|source| source.visible && !source.is_reference) {
             let id = crate::plot_item::SensorId { kind: source.kind, name: source.name.clone() };

@@ -1,7 +1,7 @@
 //! Cameras by figures of merit: ranked, with uncertainties, linked with all panes.
 
 use chromascope_core::query::CameraMetric;
-use chromascope_core::query::metrics::{Better, MetricValue};
+use chromascope_core::query::metrics::MetricValue;
 use chromascope_figure::{Cell, Column, Table};
 use egui::{Rect, Ui};
 
@@ -17,7 +17,6 @@ use crate::plot_item::{PlotItem, SensorId};
 use crate::scene::metrics::{Ranked, RankedCameras, Ranking};
 use crate::scene::uncertainty::rank_cell;
 use crate::theme::UNIT;
-use crate::view::Sorting;
 use crate::workspaces::PaneKind;
 
 /// Place of the column that draws the metric that rows are sorted by.
@@ -77,10 +76,8 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let shown = DataTable::new(PaneKind::METRICS, TABLE, &table).with_items(&item);
     let shown =
         shown.with_drawn(Drawn { column: WHISKERS, width: (0.23 * body.width()).clamp(90.0, 150.0), draw: &draw });
-    let shown = match metrics::first(&context.scene) {
-        Some(first) => {
-            shown.sorted_by(Sorting { column: first.symbol.to_owned(), descending: first.better == Better::Higher })
-        }
+    let shown = match metrics::usual(&context.scene) {
+        Some(usual) => shown.sorted_by(usual),
         None => shown,
     };
     let known: Vec<_> = metrics::uncertainties(&ranked, 0..ranked.cameras.len()).collect();

@@ -3,25 +3,27 @@
 use std::borrow::Cow;
 
 use chromascope::catalog::Catalog;
-use chromascope::document::{Diagram, Document, SetKind};
+use chromascope::document::{Diagram, Document, Light, SetKind};
 use chromascope::export::Paper;
 use chromascope::figures::chromaticity::shown::{DiagramFit, DiagramView, Fit, FitKey};
 use chromascope::figures::kind::FigureKind;
-use chromascope::figures::look::FigureLook;
+use chromascope::figures::look::{FigureLook, Sorting};
 use chromascope::figures::render::difference::{GROUND, Scale};
 use chromascope::figures::render::headline::{Detail, Measure};
 use chromascope::figures::render::returned::{self, Words};
-use chromascope::figures::{differences, strip};
+use chromascope::figures::{chromaticity, differences, light, metrics, strip};
 use chromascope::palette::difference_ramp;
 use chromascope::plot_item::SensorId;
 use chromascope::profiler::plans::ErrorBounds;
 use chromascope::results::Results;
 use chromascope::scene::Scene;
+use chromascope::scene::metrics::RankedCameras;
 use chromascope::terminal::shown;
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::render::Roughness;
 use chromascope_core::query::render::difference::{BrightSamples, Difference};
 use chromascope_core::reflectance::Normalization;
+use chromascope_figure::{Figure, Projection, Shape};
 use chromascope_workbench::format::dropped_rows;
 use chromascope_workbench::names::shortest;
 use spectral_file::{Dropped, DroppedRow};
@@ -192,8 +194,12 @@ fn ends_of_axes_are_numbers_written_there_and_short_names_are_told() {
     for kelvin in [[2000.0, 20_000.0], [2.0, 20.0]] {
         let strip = printed(&strip::KIND, kelvin, [0.0, 0.04]);
         let plot = strip.panels.iter().find(|panel| panel.framed).unwrap();
-        assert_eq!([plot.x.range, plot.y.range], [[500.0, 50.0], [0.0, 0.2]]);
+        assert_eq!([plot.x.range, plot.y.range], [[2000.0, 20_000.0].map(strip::along), [0.0, 0.2]]);
     }
+    let strip = printed(&strip::KIND, [0.0; 2], [0.0; 2]);
+    let plot = strip.panels.iter().find(|panel| panel.framed).unwrap();
+    let ticks = Projection::new(plot, 1.0).x_ticks.into_iter().map(|tick| tick.label).collect::<Vec<_>>();
+    assert_eq!(ticks.join(" "), "1 1.5 2 3 4 5 7 10 15 20", "numbers from 5000 to 20000 K too");
     let differences = printed(&differences::KIND, [0.0; 2], [0.0; 2]);
     assert!(differences.caption.contains(" 5D II: Canon EOS 5D Mark II; D70: Nikon D70"), "{}", differences.caption);
 }
@@ -240,4 +246,52 @@ fn names_keep_what_distinguishes_them() {
         shortest(["TEST (measured)", "TEST (measured 2)"].into_iter()),
         ["TEST (measured)", "TEST (measured 2)"]
     );
+}
+
+/// A figure in one column of a journal.
+fn in_one_column(kind: &FigureKind, document: &Document, look: &FigureLook) -> Figure {
+    let (catalog, results) = (Catalog::built_in(), Results::default());
+    let scene = Scene { document, catalog: &catalog, results: &results };
+    kind.on_paper(&Paper { width_mm: Some(85.0), ..Paper::default() }, &scene, look).unwrap()
+}
+
+#[test]
+fn no_mark_of_a_patch_is_cut_and_marks_on_loci_are_explained() {
+    let figure = in_one_column(&chromaticity::KIND, &Document::paper(), &FigureLook::default());
+    let panel = &figure.panels[0];
+    let (projection, mut cut) = (Projection::new(panel, 1.0), Vec::new());
+    for mark in &panel.marks {
+        let Shape::Points { points, radius, .. } = &mark.shape else { continue };
+        let [x, y] = projection.at(points[0]);
+        let plot = projection.plot;
+        let inside = (x - plot.min[0]).min(plot.max[0] - x).min(y - plot.min[1]).min(plot.max[1] - y);
+        cut.extend(Some(&mark.name).filter(|_| inside > -radius && inside < radius - 1.0));
+    }
+    assert!(cut.is_empty(), "{cut:?}");
+    assert!(figure.caption.contains(" Large markers on loci tell them apart"), "{}", figure.caption);
+}
+
+#[test]
+fn every_test_color_has_its_number() {
+    let document = Document { light: Light::Set("FL2".to_owned()), ..Document::colorimetry() };
+    let figure = in_one_column(&light::KIND, &document, &FigureLook::default());
+    let ticks = Projection::new(&figure.panels[0], 1.0).x_ticks.into_iter().map(|tick| tick.label).collect::<Vec<_>>();
+    assert_eq!(ticks.join(" "), "Ra 1 2 3 4 5 6 7 8 9 10 11 12 13 14");
+}
+
+#[test]
+fn the_figure_of_rank_has_the_order_of_the_list() {
+    let names = |sorting: Option<(&str, bool)>| {
+        let sorting = sorting.map(|(column, descending)| Sorting { column: column.to_owned(), descending });
+        let look = FigureLook { sorting, cameras: RankedCameras::Compared, ..FigureLook::default() };
+        let figure = in_one_column(&metrics::KIND, &Document::colorimetry(), &look);
+        let texts = figure.panels[0].marks.iter().filter_map(|mark| match &mark.shape {
+            Shape::Text { text, .. } => Some(text.clone()),
+            _ => None,
+        });
+        texts.filter(|text| ["5D II", "D70", "DCS200"].contains(&text.as_str())).collect::<Vec<_>>()
+    };
+    assert_eq!(names(None), ["5D II", "D70", "DCS200"]);
+    assert_eq!(names(Some(("ΔE*00 mean", true))), ["DCS200", "D70", "5D II"]);
+    assert_eq!(names(Some(("camera", false))), ["5D II", "DCS200", "D70"], "by full name");
 }

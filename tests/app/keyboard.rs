@@ -268,3 +268,16 @@ fn a_narrow_window_still_offers_the_difference() {
     assert_eq!(window.state().history.document().difference.id, "delta-e1976");
     assert_eq!(window.state().history.document().light, Light::Set("D65".to_owned()));
 }
+
+#[test]
+fn only_panes_with_a_figure_offer_to_print_it() {
+    let mut window = window(PaneKind::METRICS, SIZE);
+    let mut said = |pane| {
+        window.state_mut().push(Command::GoTo(pane));
+        window.run_steps(3);
+        window.state().view.status.text.clone()
+    };
+    assert_eq!(said(PaneKind::REPORT_CARD), "Report card (F fills the window, Ctrl+E prints)");
+    assert_eq!(said(PaneKind::METAMERS), "Metamers (F fills the window)");
+    assert_eq!(said(PaneKind::RECORDED), "Recorded (F fills the window)", "no raw values are open");
+}

@@ -73,7 +73,7 @@ impl World {
             RecordedPatch { name: name.clone(), radiance: radiance.clone(), rgb }
         };
         let patches = radiances.iter().zip(patches).map(patch).collect();
-        Shot::new(patches, light.clone(), &[], RELATIVE)
+        Shot::new(patches, Some(6), light.clone(), &[], RELATIVE)
     }
 
     /// All tables but those of the camera's model.

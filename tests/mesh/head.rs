@@ -2,6 +2,7 @@
 //! surface; and that the collar stands off the neck.
 
 use chromascope_mesh::head::{FEWEST, clothed, head};
+use chromascope_mesh::stage::Stage;
 use chromascope_mesh::{Mesh, Part};
 use glam::Vec3;
 use std::collections::BTreeMap;
@@ -231,4 +232,15 @@ fn the_same_head_twice_for_any_number_of_threads() {
     let three = rayon::ThreadPoolBuilder::new().num_threads(3).build().unwrap().install(|| head(30_000));
     assert_eq!(alone, three);
     assert_eq!(alone, head(30_000));
+}
+
+#[test]
+fn hair_and_brows_end_within_triangles() {
+    let mesh = Stage { hair: true, ..Stage::default() }.about(&head(100_000));
+    let corners = |triangle: u32| [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(|weights| mesh.part_at(triangle, weights));
+    let seen: Vec<[Part; 3]> = (0..mesh.triangles().len() as u32).map(corners).collect();
+    for part in [Part::Hair, Part::Brows] {
+        assert!(seen.contains(&[part; 3]), "{part:?}");
+        assert!(seen.iter().any(|parts| parts.contains(&part) && parts.contains(&Part::Body)), "{part:?}");
+    }
 }

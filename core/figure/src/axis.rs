@@ -252,6 +252,6 @@ impl Span {
     fn is_clear_of(self, other: Self, spacing: f64) -> bool {
         // Steps may fall short of the spacing by rounding.
         let apart = (self.tick - other.tick).abs() >= spacing * (1.0 - 1e-3);
-        apart && (self.middle - other.middle).abs() >= self.half + other.half + if spacing > 0.0 { 6.0 } else { 3.0 }
+        apart && (self.middle - other.middle).abs() >= self.half + other.half + if spacing > 0.0 { 6.0 } else { 2.0 }
     }
 }

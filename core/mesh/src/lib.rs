@@ -3,6 +3,7 @@
 //! Lengths in meters. A mesh names no spectrum, roughness or camera.
 
 pub mod fern;
+mod hair;
 #[cfg(feature = "data")]
 pub mod head;
 pub mod mesh;

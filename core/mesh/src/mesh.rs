@@ -79,6 +79,8 @@ pub struct Mesh {
     triangles: Vec<[u32; 3]>,
     /// Of each triangle; empty where all are of the body.
     parts: Vec<Part>,
+    /// True if the body is the head, with hair and brows.
+    has_hair: bool,
     /// Number of vertices that are to be seen whole, the first ones, and the least height of those.
     framed: (usize, f32),
     bounds: Bounds,
@@ -114,7 +116,7 @@ impl Mesh {
         let normals = normals.into_iter().map(unit).collect();
         let bounds = bounds(&positions, &triangles);
         let framed = (positions.len(), f32::NEG_INFINITY);
-        Ok(Self { positions, normals, triangles, parts: Vec::new(), framed, bounds })
+        Ok(Self { positions, normals, triangles, parts: Vec::new(), has_hair: false, framed, bounds })
     }
 
     /// Takes vertices and triangles; each vertex's normal is the mean of its triangles' by area and angle at the vertex.
@@ -153,7 +155,7 @@ impl Mesh {
         &self.parts
     }
 
-    /// The part that a triangle is of.
+    /// The part that a triangle is of, as a whole.
     pub fn part(&self, triangle: u32) -> Part {
         self.parts.get(triangle as usize).copied().unwrap_or_default()
     }
@@ -175,18 +177,21 @@ impl Mesh {
         self.positions[..count].par_iter().with_min_len(4096).filter(move |p| p.y >= least)
     }
 
-    /// The mesh with parts of the body by the middles of its triangles.
-    #[cfg(feature = "data")]
-    pub(crate) fn relabeled(self, part_at: impl Fn(Vec3) -> Part) -> Self {
-        let own = (0..self.triangles.len() as u32).map(|triangle| match self.part(triangle) {
-            Part::Body => {
-                let corners = self.triangles[triangle as usize].map(|v| self.positions[v as usize]);
-                part_at(corners.iter().sum::<Vec3>() / 3.0)
+    /// The part of a place on a triangle by the weights of its second and third corner. Hair and brows end within triangles.
+    pub fn part_at(&self, triangle: u32, weights: [f32; 2]) -> Part {
+        match self.part(triangle) {
+            Part::Body if self.has_hair => {
+                let [a, b, c] = self.triangles[triangle as usize].map(|v| self.positions[v as usize]);
+                crate::hair::part_at(a + weights[0] * (b - a) + weights[1] * (c - a))
             }
-            other => other,
-        });
-        let parts = own.collect();
-        Self { parts, ..self }
+            part => part,
+        }
+    }
+
+    /// The head with hair and brows.
+    pub(crate) fn with_hair(mut self) -> Self {
+        self.parts.resize(self.triangles.len(), Part::Body);
+        Self { has_hair: true, ..self }
     }
 
     /// The mesh with others about it, which its bounds leave out; the first `framed` of their vertices are to be seen whole.

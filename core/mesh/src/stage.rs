@@ -60,9 +60,8 @@ impl Stage {
             let others = Mesh::new(built.positions, built.normals, built.triangles).expect("quadrilaterals are finite");
             staged = staged.among(others.with_parts(built.parts), framed);
         }
-        #[cfg(feature = "data")]
         if self.hair {
-            staged = staged.relabeled(crate::head::part_at);
+            staged = staged.with_hair();
         }
         if self.cropped {
             staged = staged.framed_above(bounds.min.y + CROPPED * (bounds.max.y - bounds.min.y));

@@ -131,6 +131,24 @@ fn axes_end_where_they_are_told_to_and_layers_are_left_out() {
     let bare = drawn("chromaticity", &["--no-loci", "--x-range", "0.3,0.5", "--y-range", "0.3,0.42"]);
     assert!(whole.contains("Loci from") && whole.contains("Rings") && !bare.contains("Loci from 1000"), "{bare}");
     assert!(bare.contains(">0.35</text>") && !bare.contains(">0.8</text>"));
+    let arrows = run(&["figure", "differences", "--y-range", "0,0.01", "--force", "--out", "arrows.svg"]);
+    let why = String::from_utf8_lossy(&arrows.stderr);
+    assert!(arrows.status.code() == Some(2) && why.contains("--y-range") && why.contains("no axis"), "{why}");
+}
+
+#[test]
+fn many_curves_are_named_in_the_caption() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let line =
+        |first: String, cell: &dyn Fn(u32) -> String| (0..14).fold(first, |line, i| line + "," + &cell(i)) + "\n";
+    let head = line("wavelength".to_owned(), &|curve| format!("leaf{curve}"));
+    let row = |tens: u32| line((10 * tens).to_string(), &|curve| (0.01 * f64::from(curve + 1)).to_string());
+    fs::write(at("leaves.csv"), (38..=78).fold(head, |text, tens| text + &row(tens))).expect("written");
+    let done = run(&["figure", "curves", &at("leaves.csv"), "--out", &at("leaves.svg")]);
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    let svg = fs::read_to_string(at("leaves.svg")).expect("a file");
+    assert!((0..14).all(|curve| svg.contains(&format!("leaf{curve}"))), "{svg}");
 }
 
 /// Value and uncertainty of each metric's column of a camera, by `compare`.

@@ -253,8 +253,7 @@ fn a_larger_chart_says_more() {
         RecordedPatch { name: format!("p{at}"), radiance, rgb }
     };
     let recorded: Vec<RecordedPatch> = training.patches()[..140].iter().enumerate().map(patch).collect();
-    let mut large = Shot::new(recorded, light.clone(), &[], 0.01);
-    large.columns = Some(14);
+    let large = Shot::new(recorded, Some(14), light.clone(), &[], 0.01);
     let found = ChartRecovery::new(&library, std::slice::from_ref(&large)).unwrap();
     let logs: Vec<f64> = found.brightness[0].iter().enumerate().map(|(at, b)| (b / fall_off(at)).ln()).collect();
     let mean = logs.iter().sum::<f64>() / logs.len() as f64;

@@ -6,8 +6,6 @@
 //! A pixel belongs to a patch if its center lies in the central part of the patch's cell; a patch's value is the trimmed mean of its pixels.
 //! Of large patches, pixels an odd number of rows and columns apart are taken, so that a mosaic's colors keep their shares.
 
-use std::cmp::Ordering;
-
 use chromascope_math::quantile::quantile;
 use glam::{DMat3, DVec2, DVec3};
 
@@ -198,22 +196,30 @@ impl ChartGrid {
 /// Places of patches in a grid, row by row from its first corner, by names of a letter and a number such as A1 or N10: the letters are
 /// columns, as of the `ColorChecker` SG of 14 × 10, or rows, as A1 to D6 of 6 × 4, whichever there are as many of. None where the names do
 /// not state each place once.
-pub fn named_places<'a>(names: impl IntoIterator<Item = &'a str>, [columns, rows]: [usize; 2]) -> Option<Vec<usize>> {
+pub fn named_places<'a>(names: impl IntoIterator<Item = &'a str>, grid: [usize; 2]) -> Option<Vec<usize>> {
+    places(&cells(names)?, grid)
+}
+
+/// Letters and numbers of names, both from 0.
+fn cells<'a>(names: impl IntoIterator<Item = &'a str>) -> Option<Vec<[usize; 2]>> {
     let parsed = |name: &str| {
         let letter = name.chars().next().filter(char::is_ascii_alphabetic)?.to_ascii_uppercase();
         let number = name[1..].parse::<usize>().ok()?.checked_sub(1)?;
         Some([usize::from(letter as u8 - b'A'), number])
     };
-    let cells: Vec<[usize; 2]> = names.into_iter().map(|name| parsed(name.trim())).collect::<Option<_>>()?;
+    names.into_iter().map(|name| parsed(name.trim())).collect()
+}
+
+fn places(cells: &[[usize; 2]], [columns, rows]: [usize; 2]) -> Option<Vec<usize>> {
     let most = [0, 1].map(|axis: usize| cells.iter().map(|cell| cell[axis] + 1).max().unwrap_or(0));
     let letters_are_columns = most == [columns, rows];
     if most != [rows, columns] && !letters_are_columns || columns.checked_mul(rows) != Some(cells.len()) {
         return None;
     }
-    let place = |[letter, number]: [usize; 2]| {
+    let place = |&[letter, number]: &[usize; 2]| {
         if letters_are_columns { number * columns + letter } else { letter * columns + number }
     };
-    let places: Vec<usize> = cells.into_iter().map(place).collect();
+    let places: Vec<usize> = cells.iter().map(place).collect();
     let mut seen = vec![false; places.len()];
     places.iter().all(|place| !std::mem::replace(&mut seen[*place], true)).then_some(places)
 }
@@ -225,8 +231,10 @@ pub fn grids(names: &[&str]) -> Vec<[usize; 2]> {
     let sides = (1..=100).filter(|columns| count.is_multiple_of(*columns) && (1..=100).contains(&(count / columns)));
     let mut all: Vec<[usize; 2]> = sides.map(|columns| [columns, count / columns]).collect();
     let off = |[columns, rows]: [usize; 2]| (columns as f64 / rows as f64 / 1.5).ln().abs();
-    let is_unnamed = |grid: [usize; 2]| named_places(names.iter().copied(), grid).is_none();
-    all.sort_by(|a, b| (is_unnamed(*a), off(*a)).partial_cmp(&(is_unnamed(*b), off(*b))).unwrap_or(Ordering::Equal));
+    let named = cells(names.iter().copied());
+    let is_named = |grid: [usize; 2]| named.as_ref().is_some_and(|cells| places(cells, grid).is_some());
+    // The bits of positive numbers are in the numbers' order.
+    all.sort_by_cached_key(|grid| (!is_named(*grid), off(*grid).to_bits()));
     all
 }
 

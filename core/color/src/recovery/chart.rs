@@ -63,15 +63,20 @@ hash_by!(Shot, |of| (
 ));
 
 impl Shot {
-    /// Patches under a light, of which 24 are those of a chart of 6 × 4; the standard deviation of a value is that by the `pixels`, where known, and `relative` times the value, in
-    /// quadrature.
-    pub fn new(patches: Vec<RecordedPatch>, light: GridSpectrum, pixels: &[[f64; 3]], relative: f64) -> Self {
+    /// Patches under a light, in rows of so many columns, where known; the standard deviation of a value is that by the `pixels`, where
+    /// known, and `relative` times the value, in quadrature.
+    pub fn new(
+        patches: Vec<RecordedPatch>,
+        columns: Option<usize>,
+        light: GridSpectrum,
+        pixels: &[[f64; 3]],
+        relative: f64,
+    ) -> Self {
         let deviation = |patch: usize, c: usize| {
             let value = patches[patch].rgb[c].value().unwrap_or_default();
             (relative * value).hypot(pixels.get(patch).map_or(0.0, |row| row[c]))
         };
         let noise = (0..patches.len()).map(|patch| [0, 1, 2].map(|c| deviation(patch, c))).collect();
-        let columns = Some(6).filter(|_| patches.len() == 24);
         Self { patches, noise, light, columns, drifts: Vec::new() }
     }
 

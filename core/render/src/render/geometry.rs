@@ -229,7 +229,10 @@ impl GeometryImage {
             seen.extend(part.seen);
             counts = counts.plus(part.counts);
         }
-        let part = |&sample: &u32| mesh.part(visibility.hits()[sample as usize].triangle);
+        let part = |&sample: &u32| {
+            let Hit { triangle, weights } = visibility.hits()[sample as usize];
+            mesh.part_at(triangle, weights)
+        };
         let parts = if mesh.parts().is_empty() { Vec::new() } else { samples.iter().map(part).collect() };
         let placed = Arc::new(LitSamples { size, samples, seen, parts });
         Some(Self { placed, angles, angular_radius: disk, reach, counts })

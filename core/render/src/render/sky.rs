@@ -145,7 +145,7 @@ impl Sampling<'_> {
         let through = self.even.as_ref().filter(|_| self.through).map_or(0.0, |lobe| {
             lobe.visible_mean(-normal, -normal, |direction| visible_share(after, weights, direction))
         });
-        let is_matte = self.mesh.part(hit.triangle).is_matte();
+        let is_matte = self.mesh.part_at(hit.triangle, hit.weights).is_matte();
         let lobe = self.even.as_ref().filter(|_| is_matte).unwrap_or(&self.lobe);
         SkySample {
             diffuse: falloff * lobe.visible_mean(normal, to_viewer, visible),

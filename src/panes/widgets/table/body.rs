@@ -242,6 +242,13 @@ impl<'a> Body<'a> {
 
     fn number(&self, ui: &Ui, rect: Rect, cell: &Cell, value: f64, column: usize) {
         let (layout, note) = (self.layouts[column], cell.note());
+        let edge = ui.clip_rect().right();
+        let mut place = rect;
+        place.max.x -= layout.uncertainty;
+        if place.right() > edge + 1.0 {
+            // Part of a number would be read as another; the head has the sign that more follow.
+            return;
+        }
         let ink = if note.is_gray { self.theme.weak } else { self.theme.text };
         if !note.is_gray
             && let Some(share) = layout.shade(value)
@@ -251,14 +258,6 @@ impl<'a> Body<'a> {
         }
         let written = self.number_in_words(cell, value, column);
         let written = if self.of.ragged { written.trim_end() } else { &written };
-        let mut place = rect;
-        place.max.x -= layout.uncertainty;
-        let edge = ui.clip_rect().right();
-        if place.right() > edge + 1.0 {
-            // Part of a number would be read as another.
-            lines::elided(ui, place.with_max_x(edge), "…", TextStyle::Small, self.theme.weak);
-            return;
-        }
         if layout.form == Form::Text {
             lines::elided(ui, place, written, TextStyle::Monospace, ink);
         } else {
@@ -328,6 +327,7 @@ impl Body<'_> {
             ui.painter().rect(rect.shrink(1.0), 3.0, self.theme.control, rim, StrokeKind::Inside);
         }
         let mut place = self.inner(rect);
+        let edge = place.right();
         if self.goes_on {
             // The sign that more columns follow stands at the edge.
             place.max.x = place.max.x.min(ui.clip_rect().right() - 3.0 * UNIT);
@@ -345,7 +345,9 @@ impl Body<'_> {
             place.min.y += 0.5 * UNIT;
             ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, Stroke::new(1.0, self.theme.line));
         }
-        let has_room = place.width() > 5.0 * UNIT;
+        // A head without its numbers would be that of an empty column.
+        let is_cut = layout.form != Form::Text && edge - layout.uncertainty > ui.clip_rect().right() + 1.0;
+        let has_room = place.width() > 5.0 * UNIT && !is_cut;
         for (line, text) in [&column.name, &column.unit].into_iter().enumerate().filter(|_| has_room) {
             let at = egui::pos2(place.left(), place.top() + line as f32 * HEAD_LINE);
             let row = Rect::from_min_size(at, Vec2::new(place.width(), HEAD_LINE));

@@ -48,6 +48,7 @@ pub(super) fn run(arguments: &FigureArguments, matches: &ArgMatches) -> Result<(
         return refused("KIND", "there is nothing to draw: no camera is compared, or it cannot be computed");
     };
     check_height(&figure, &paper, form)?;
+    check_limits(&figure, &paper)?;
     let bytes = form.bytes(&figure, &figure.table.clone().with_constants(scene.conditions()), &paper)?;
     outputs::stream(out, |out| out.write_all(&bytes).map_err(Stop::Output))
 }
@@ -114,6 +115,17 @@ fn check_height(figure: &Figure, paper: &Paper, form: FigureForm) -> Result<()> 
     }
     let reason = format!("at this width and size of text the figure is {height:.0} mm high; leave --height out");
     refused("--height", reason)
+}
+
+/// Refuses ends of axes for a figure without any.
+fn check_limits(figure: &Figure, paper: &Paper) -> Result<()> {
+    let limits = [("--x-range", paper.x_range), ("--y-range", paper.y_range)];
+    match limits.into_iter().find(|(_, [from, to])| from != to) {
+        Some((flag, _)) if figure.panels.iter().all(|panel| !panel.framed) => {
+            refused(flag, "this figure has no axis to set: its plots share one scale, or it shows pictures or swatches")
+        }
+        _ => Ok(()),
+    }
 }
 
 pub(super) fn opened(request: &mut Request, path: &Path) -> Result<Document> {

@@ -151,7 +151,7 @@ impl Settings for Paper {
             pick(axis_titles: AxisTitles, Row), flag(PAPER, "axis-titles", "AXIS_TITLES", ""; usual: "inside");
         "ranges" "Axis ranges" in IN_LOOK, by "", "Ranges of the axes of plots that can be zoomed",
             pick(ranges: AxisRanges, Row), elsewhere("range");
-        "x_range" "x" in IN_LOOK, by "axis limits", "Ends of the horizontal axis; equal ones for the figure's own",
+        "x_range" "x" in IN_LOOK, by "axis limits", "Ends of the horizontal axis, temperatures in K or 1000 K; equal ones for the figure's own",
             pair("from", "Left end", "to", "Right end"; x_range, "", Self::AXIS),
             flag(PAPER, "x-range", "FROM,TO", " [default: the figure's own]"; range: Self::AXIS);
         "y_range" "y" in IN_LOOK, by "axis limits", "Ends of the vertical axis of the first plot; equal ones for the figure's own",

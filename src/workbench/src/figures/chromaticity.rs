@@ -225,9 +225,11 @@ pub fn figure_sized(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom, size
     }
     figure.legend = scene.visible_sources().iter().map(legend_entry).collect();
     figure.legend_place = LegendPlace::Outside;
-    let is_beyond = figure.panels[0].marks.iter().any(|mark| mark.name.ends_with(", outside"));
-    let beyond = if is_beyond { " Hollow triangles: points beyond the axes." } else { "" };
-    figure.caption = format!("{}{beyond}{}", caption(scene), scene.document.exaggeration.sentence());
+    let has = |end: &str| figure.panels.iter().flat_map(|panel| &panel.marks).any(|mark| mark.name.ends_with(end));
+    let lines =
+        if has(", line") { " Large markers on loci tell them apart, at no particular temperature." } else { "" };
+    let beyond = if has(", outside") { " Hollow triangles: points beyond the axes, or at their ends." } else { "" };
+    figure.caption = format!("{}{lines}{beyond}{}", caption(scene), scene.document.exaggeration.sentence());
     figure.table = table(scene);
     if room.numbers == Numbers::Visible {
         keep_inside(&mut figure.table, scene.document.diagram, [shown.x, shown.y]);

@@ -7,7 +7,7 @@ use chromascope_figure::{
 
 use chromascope_core::query::TwoLightPoint;
 
-use super::kind::{FigureKind, Need};
+use super::kind::{FigureKind, Need, kelvins};
 use super::look::FigureLook;
 use super::report_card;
 use crate::export::profile::CorrectionFile;
@@ -36,7 +36,7 @@ const CURVES: [Curve; 4] = [
 
 pub static KIND: FigureKind =
     FigureKind::new("correction", "Error of a correction between its two lights; needs a second light", figure)
-        .over_mired(|number| number)
+        .with_scales([|number| 1e6 / kelvins(number), |number| number])
         .needing(Need::Correction);
 
 fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {

@@ -27,6 +27,8 @@ const TEXT: f64 = 18.0;
 const BELOW: f64 = Projection::BOTTOM + Projection::TITLE;
 /// Maximum number of curves with legend entries of their own.
 const NAMED: usize = 12;
+/// Maximum number of curves that a caption names.
+const LISTED: usize = 40;
 
 /// The panel for an area of the given size. `hovered` is the index in the file of the hovered curve.
 pub fn panel(curves: &Curves, size: [f64; 2], hovered: Option<usize>) -> Panel {
@@ -174,9 +176,18 @@ fn figure(_: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> 
         figure.legend_place = LegendPlace::Outside;
     }
     let band = curves.band_words().map_or_else(String::new, |words| format!(" {}.", capitalized(&words)));
-    figure.caption = format!("{}: {}.{band}", curves.title, curves.quantity);
+    let named = if drawn.drawn.len() > NAMED { names(&curves.drawn) } else { String::new() };
+    figure.caption = format!("{}: {}.{named}{band}", curves.title, curves.quantity);
     figure.table = numbers(if room.numbers == Numbers::Visible { &drawn } else { &curves });
     Some(figure)
+}
+
+/// Names of more curves than a legend tells apart by color, in a sentence.
+fn names(curves: &[Curve]) -> String {
+    let names: Vec<&str> = curves.iter().take(LISTED).map(|curve| curve.name.as_str()).collect();
+    let more = curves.len() - names.len();
+    let more = if more > 0 { format!(", and {more} more, which the numbers name") } else { String::new() };
+    format!(" In order of the file, colors recurring: {}{more}.", names.join(", "))
 }
 
 pub fn title(curves: &Curves) -> String {

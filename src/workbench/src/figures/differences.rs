@@ -103,7 +103,7 @@ const SIZE: [f64; 2] = [640.0, 300.0];
 
 pub static KIND: FigureKind =
     FigureKind::new("differences", "Each camera's differences from the reference as arrows, or of the loci", figure)
-        .over_mired(super::strip::root)
+        .with_scales(super::strip::SCALES)
         .in_report();
 
 fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {

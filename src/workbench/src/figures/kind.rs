@@ -20,7 +20,7 @@ pub struct FigureKind {
     pub is_of_metrics: bool,
     /// True if it is part of a report on a comparison.
     pub is_reported: bool,
-    /// Values on the axes of numbers that are written there.
+    /// Places on the axes of numbers that are written there.
     scales: [fn(f64) -> f64; 2],
     draw: Draw,
 }
@@ -48,10 +48,9 @@ impl FigureKind {
         Self { needs, ..self }
     }
 
-    /// With temperatures along x, and the numbers of y on another scale.
-    pub(super) const fn over_mired(self, y: fn(f64) -> f64) -> Self {
-        let x = |kelvin: f64| 1e6 / (if kelvin < 1e3 { 1e3 * kelvin } else { kelvin }).max(1.0);
-        Self { scales: [x, y], ..self }
+    /// With the places on both axes of numbers that are written there.
+    pub(super) const fn with_scales(self, scales: [fn(f64) -> f64; 2]) -> Self {
+        Self { scales, ..self }
     }
 
     pub(super) const fn of_metrics(self) -> Self {
@@ -100,6 +99,11 @@ impl FigureKind {
     pub fn on_paper(&self, paper: &Paper, scene: &Scene<'_>, look: &FigureLook) -> Option<Figure> {
         paper.laid_out(|room| self.figure(scene, look, room))
     }
+}
+
+/// Kelvins of a number along an axis of temperatures: below 1000 it is of thousands, as the axes of loci are written.
+pub(super) fn kelvins(number: f64) -> f64 {
+    (if number < 1e3 { 1e3 * number } else { number }).max(1.0)
 }
 
 /// Names of sensors that a figure shows in short and no legend in full, in a sentence.

@@ -39,7 +39,8 @@ pub fn bars(rendition: &Rendition, area: Rect) -> Option<Panel> {
     let above = numbers().filter(|(_, (_, value))| *value >= 0.0);
     let widest = above.map(|(_, (_, value))| text_width(&fixed(*value, 0), TextSize::Small)).fold(0.0, f64::max);
     let staggers = widest + NUMBER_GAP > (area.width() - Projection::LEFT) / count;
-    let beyond = if staggers { 0.3 } else { 0.0 };
+    // No more, or at one column the axis would lack numbers.
+    let beyond = if staggers { 0.1 } else { 0.0 };
     let x = Axis::new("test color (Ra: mean of R1 to R8)", [-beyond, count + beyond])
         .with_ticks(Ticks::At(names))
         .with_grid(false);

@@ -1,8 +1,10 @@
 //! What a figure takes from whoever looks at it, as a plain value; without a window, the default.
 
+use std::cmp::Ordering;
 use std::sync::Arc;
 
 use chromascope_core::query::RecordedSet;
+use chromascope_figure::{CellValue, Table};
 use chromascope_measure::Workload;
 use chromascope_text::choices;
 use serde::{Deserialize, Serialize};
@@ -123,6 +125,29 @@ pub struct PixelPlace {
 pub struct Sorting {
     pub column: String,
     pub descending: bool,
+}
+
+impl Sorting {
+    /// Sorts rows of a table, as they are where it has no such column; equal ones keep their order, empty cells come last.
+    pub fn sort(&self, table: &Table, rows: &mut [usize]) {
+        let Some(column) = table.columns.iter().position(|column| column.name == self.column) else { return };
+        rows.sort_by(|&a, &b| compare(table.cell(a, column).value(), table.cell(b, column).value(), self.descending));
+    }
+}
+
+/// Numbers by value, before texts by letters, before nothing.
+fn compare(a: CellValue<'_>, b: CellValue<'_>, descending: bool) -> Ordering {
+    let turned = |order: Ordering| if descending { order.reverse() } else { order };
+    let rank = |cell: CellValue<'_>| match cell {
+        CellValue::Number(value) if !value.is_nan() => 0,
+        CellValue::Text(_) => 1,
+        _ => 2,
+    };
+    match (a, b) {
+        (CellValue::Number(a), CellValue::Number(b)) if !a.is_nan() && !b.is_nan() => turned(a.total_cmp(&b)),
+        (CellValue::Text(a), CellValue::Text(b)) => turned(a.to_lowercase().cmp(&b.to_lowercase())),
+        _ => rank(a).cmp(&rank(b)),
+    }
 }
 
 /// Measurement whose methods are shown.

@@ -36,6 +36,12 @@ pub fn first(scene: &Scene<'_>) -> Option<CameraMetric> {
     CameraMetric::by_id(if scene.document.transform.is_eq_13() { FIRST_EQ_13 } else { FIRST })
 }
 
+/// The order of cameras until another is chosen: the best by that metric first.
+pub fn usual(scene: &Scene<'_>) -> Option<Sorting> {
+    let first = first(scene)?;
+    Some(Sorting { column: first.symbol.to_owned(), descending: first.better == Better::Higher })
+}
+
 pub fn value(ranked: &Ranked, camera: usize, metric: CameraMetric) -> Option<MetricValue> {
     figures(ranked, camera)?.of(metric)
 }
@@ -186,15 +192,17 @@ fn shown(count: usize, most: usize, must: impl Fn(usize) -> bool) -> Vec<usize> 
     (0..count).filter(|place| takes(place)).collect()
 }
 
-/// Cameras in order of the metric by which the table is sorted, with uncertainties, and the table of all numbers.
+/// Cameras in the order of the table with their values of the metric by which it is sorted, and the table of all numbers.
 fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
     let ranked = scene.ranked(look.cameras);
     let metric = sorted_by(scene, look.sorting.as_ref()).or_else(|| first(scene))?;
-    let mut order: Vec<(usize, MetricValue, f64)> = (0..ranked.cameras.len())
-        .filter_map(|camera| value(&ranked, camera, metric).and_then(|v| Some((camera, v, v.value.ok()?))))
-        .collect();
-    let largest_first = metric.better == Better::Higher;
-    order.sort_by(|a, b| if largest_first { b.2.total_cmp(&a.2) } else { a.2.abs().total_cmp(&b.2.abs()) });
+    let by = look.sorting.clone().or_else(|| usual(scene))?;
+    let mut listed = table(&ranked);
+    insert_worst(&mut listed, &ranked, scene, None);
+    let mut rows: Vec<usize> = (0..ranked.cameras.len()).collect();
+    by.sort(&listed, &mut rows);
+    let valued = |camera: usize| value(&ranked, camera, metric).and_then(|v| Some((camera, v, v.value.ok()?)));
+    let order: Vec<(usize, MetricValue, f64)> = rows.into_iter().filter_map(valued).collect();
     let (sources, ranks) = (scene.visible_sources(), ranks(&ranked, metric));
     let source = |camera: usize| {
         let id = &ranked.cameras[camera].id;
@@ -245,7 +253,14 @@ fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figu
     let mut figure = Figure::new(format!("{}{in_unit}", metric.label), [width, 0.0]);
     figure.panels = whiskers::panels(&rows, &format!("{}{unit}", metric.symbol), width, false).into();
     figure.size = figure.panels[0].area.max;
-    let among = if order.len() > most { format!("{} of {} cameras. ", most, order.len()) } else { String::new() };
+    let first = places.iter().enumerate().take_while(|(row, place)| row == *place).count();
+    let among = if places.len() < order.len() {
+        let direction = if by.descending { "descending" } else { "ascending" };
+        let counts = format!("{} of {} cameras: the first {first}", places.len(), order.len());
+        format!("{counts} by {}, {direction}, those compared and the last. ", by.column)
+    } else {
+        String::new()
+    };
     let behind = if width < NARROW { "ranks" } else { "values and ranks" };
     figure.caption = format!(
         "{among}Whiskers: ± u. At the right: {behind}, a range where cameras do not differ at 95 %. {} {}",

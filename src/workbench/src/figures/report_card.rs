@@ -13,7 +13,7 @@ use chromascope_figure::{
 use super::chromaticity::{conditions, distance_symbol};
 use super::kind::FigureKind;
 use super::look::FigureLook;
-use super::strip::temperature_axis;
+use super::strip::{along, temperature_axis};
 use crate::document::SetKind;
 use crate::format::fixed;
 use crate::plot_item::{PlotItem, SensorId};
@@ -148,7 +148,7 @@ fn sensitivities(scene: &Scene<'_>, id: &SensorId, area: Rect) -> Panel {
     named(&panel, &names)
 }
 
-/// Distance from the reference's Planckian locus at equal temperature, over reciprocal temperature.
+/// Distance from the reference's Planckian locus at equal temperature, over the temperature.
 fn locus(scene: &Scene<'_>, id: &SensorId, area: Rect) -> Panel {
     let diagram = scene.document.diagram;
     let mut x = temperature_axis();
@@ -161,7 +161,7 @@ fn locus(scene: &Scene<'_>, id: &SensorId, area: Rect) -> Panel {
     let comparable = scene.is_comparable(id.kind, &id.name);
     let points: Vec<[f64; 2]> = pair.ok().filter(|_| comparable).map_or_else(Vec::new, |(own, reference)| {
         let pairs = own.points.iter().zip(&reference.points);
-        pairs.filter_map(|(a, b)| Some([a.temperature.mired(), distance(a, b, diagram)?])).collect()
+        pairs.filter_map(|(a, b)| Some([along(a.temperature.get()), distance(a, b, diagram)?])).collect()
     });
     let top = points.iter().map(|point| point[1]).fold(1e-6, f64::max).min(0.6);
     let mut panel = Panel::new("locus error", area, x, Axis::new("", [0.0, 1.2 * top]));

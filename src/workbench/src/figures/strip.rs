@@ -9,7 +9,7 @@ use chromascope_figure::{
 };
 
 use super::chromaticity::{self, distance_symbol, id, sign};
-use super::kind::FigureKind;
+use super::kind::{FigureKind, kelvins};
 use super::look::FigureLook;
 use crate::document::{Diagram, LOCUS_RANGE_K, SetKind};
 use crate::format::number;
@@ -20,13 +20,13 @@ use crate::scene::{ComparedSensor, Scene};
 /// The strip with the items of its lines.
 #[derive(Clone, Debug)]
 pub struct Strip {
-    /// The panel; its axes are in mired and in square roots of distances.
+    /// The panel; its axes are in logarithms of temperatures and in square roots of distances.
     pub panel: Panel,
     pub things: PickIndex,
 }
 
 /// Temperatures that are written below, in thousands of kelvins.
-const TICKS: [f64; 8] = [1.0, 1.2, 1.5, 2.0, 3.0, 5.0, 10.0, 20.0];
+const TICKS: [f64; 10] = [1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0, 10.0, 15.0, 20.0];
 /// Largest distance drawn: a locus that goes to infinity leaves the strip, the others stay readable.
 const LARGEST: f64 = 0.6;
 
@@ -95,17 +95,39 @@ pub(super) fn root(value: f64) -> f64 {
     value.abs().sqrt().copysign(value)
 }
 
-/// The temperatures of loci, evenly in mired, cold at the left.
+/// The place of a temperature in kelvins on the axis of loci, its decadic logarithm. Evenly in mired, half of the axis would be
+/// below 2000 K, where hardly a light is, and 5000 to 20000 K a sixth.
+pub fn along(kelvin: f64) -> f64 {
+    kelvin.log10()
+}
+
+/// The temperature in kelvins at a place on the axis of loci.
+pub fn kelvin(along: f64) -> f64 {
+    10_f64.powf(along)
+}
+
+/// Places on the axes of temperatures of loci and of differences.
+pub(super) const SCALES: [fn(f64) -> f64; 2] = [|number| along(kelvins(number)), root];
+
+/// The temperatures of loci, cold at the left.
 pub(super) fn temperature_axis() -> Axis {
-    let ticks = TICKS.iter().map(|thousands| (1e3 / thousands, thousands.to_string())).collect();
-    let range = LOCUS_RANGE_K.map(|kelvin| 1e6 / kelvin);
+    let ticks = TICKS.iter().map(|thousands| (along(1e3 * thousands), thousands.to_string())).collect();
+    let range = LOCUS_RANGE_K.map(along);
     Axis::new("blackbody temperature (1000 K)", range).with_ticks(Ticks::At(ticks)).with_grid(true)
+}
+
+/// The point of a curve at which the marker of the sensor at a place in the list stands: each at a temperature of its own, by
+/// which lines are told apart where they cross or are printed in gray.
+pub(super) fn marked(points: &[[f64; 2]], place: usize) -> Option<[f64; 2]> {
+    let [cold, hot] = LOCUS_RANGE_K.map(along);
+    let from = cold + (0.1 + 0.07 * (place % 6) as f64) * (hot - cold);
+    points.iter().copied().find(|at| at[0] >= from)
 }
 
 const SIZE: [f64; 2] = [640.0, 170.0];
 
 pub static KIND: FigureKind =
-    FigureKind::new("strip", "Distance of each locus to the reference's over temperature", figure).over_mired(root);
+    FigureKind::new("strip", "Distance of each locus to the reference's over temperature", figure).with_scales(SCALES);
 
 /// The strip as a figure of its own, with its numbers; none where no sensor can be compared with the reference.
 fn figure(scene: &Scene<'_>, _: &FigureLook, room: FigureRoom) -> Option<Figure> {
@@ -125,7 +147,7 @@ fn figure(scene: &Scene<'_>, _: &FigureLook, room: FigureRoom) -> Option<Figure>
 /// What the strip depends on, and its minima, in sentences.
 fn caption(scene: &Scene<'_>) -> String {
     let minima = minima(scene);
-    let words = minima.iter().map(|(source, at)| format!("{} {:.0} K", source.label, 1e6 / at[0]));
+    let words = minima.iter().map(|(source, at)| format!("{} {:.0} K", source.label, kelvin(at[0])));
     let words = words.collect::<Vec<_>>().join(", ");
     let minima = if minima.is_empty() { String::new() } else { format!(" Rings: minima ({words}).") };
     let (before, loci) = (chromaticity::viewing_conditions(scene), chromaticity::loci_words(scene));
@@ -150,17 +172,15 @@ fn content(scene: &Scene<'_>, reference: &Locus, things: &mut PickIndex) -> Opti
     for source in &compared(scene).collect::<Vec<_>>() {
         let Ok(locus) = scene.locus(source.kind, &source.name) else { continue };
         let pairs = locus.points.iter().zip(&reference.points);
-        let points: Vec<[f64; 2]> =
-            pairs.map(|(a, b)| [a.temperature.mired(), distance(a, b, diagram).map_or(f64::NAN, f64::sqrt)]).collect();
+        let height = |a, b| distance(a, b, diagram).map_or(f64::NAN, f64::sqrt);
+        let points: Vec<[f64; 2]> = pairs.map(|(a, b)| [along(a.temperature.get()), height(a, b)]).collect();
         let finite = points.iter().map(|p| p[1] * p[1]).filter(|d| d.is_finite());
         content.top = finite.fold(content.top, f64::max);
         let tag = things.tag(PlotItem::Sensor(id(source)));
         let below = scene.extrapolated_below(source.kind, &source.name).map(|(below, _)| below);
-        // Where lines cross or are printed in gray, markers tell them apart: each at a temperature of its own.
-        let share = 0.3 + 0.08 * (content.signs.len() % 6) as f64;
-        let at = points[(share * points.len() as f64) as usize % points.len().max(1)];
-        content.signs.push(sign(tag, source, at, 4.0, source.role));
-        let [measured, beyond] = split(&points, |index| 1e6 / points[index][0], below);
+        let at = marked(&points, content.signs.len());
+        content.signs.extend(at.map(|at| sign(tag, source, at, 4.0, source.role)));
+        let [measured, beyond] = split(&points, |index| locus.points[index].temperature.get(), below);
         let line = |points| {
             let line = Mark::new(tag, &source.label, Shape::Line { points, closed: false });
             line.with_stroke(source.role, source.width)
@@ -172,7 +192,7 @@ fn content(scene: &Scene<'_>, reference: &Locus, things: &mut PickIndex) -> Opti
     }
     content.minima = minima(scene);
     for (source, at) in &content.minima {
-        let kelvin = 1e6 / at[0];
+        let kelvin = kelvin(at[0]);
         let tag = things.tag(PlotItem::Radiator { source: id(source), kelvin: kelvin.round() });
         let ring = Shape::Points { points: vec![*at], marker: Marker::Circle, radius: 3.5 };
         let ring = Mark::new(tag, format!("{}: minimum at {kelvin:.0} K", source.label), ring);
@@ -184,13 +204,13 @@ fn content(scene: &Scene<'_>, reference: &Locus, things: &mut PickIndex) -> Opti
 /// A distance's minimum: it follows the balance, not the camera.
 fn minimum(scene: &Scene<'_>, source: &ComparedSensor) -> Option<[f64; 2]> {
     let nearest = scene.nearest_to_reference(source.kind, &source.name, scene.document.diagram)?;
-    (!nearest.at_end).then(|| [1e6 / nearest.kelvin, nearest.distance.sqrt()])
+    (!nearest.at_end).then(|| [along(nearest.kelvin), nearest.distance.sqrt()])
 }
 
 /// The temperature of a minimum, in the sensor's ink.
 fn minimum_text(source: &ComparedSensor, at: [f64; 2]) -> Label {
     let places = [7.0, 11.0].into_iter().flat_map(|far| Place::around(at, [1.0, -0.1], far)).collect();
-    Label::new(format!("{:.0} K", 1e6 / at[0]), source.role, places)
+    Label::new(format!("{:.0} K", kelvin(at[0])), source.role, places)
 }
 
 /// Zero and two round distances with equal decimals, at the square roots where they lie.
@@ -205,13 +225,13 @@ pub(super) fn height_ticks(top: f64) -> Vec<(f64, String)> {
 /// The hairline of distances that are just visible, with its name.
 fn just_visible_line(reference: &Locus, diagram: Diagram) -> (Mark, Label) {
     let height = |at: Xy| just_visible(at, diagram).sqrt();
-    let points = reference.points.iter().filter_map(|p| Some([p.temperature.mired(), height(p.xy?)]));
+    let points = reference.points.iter().filter_map(|p| Some([along(p.temperature.get()), height(p.xy?)]));
     let points: Vec<[f64; 2]> = points.collect();
     let sides = [(Anchor::BOTTOM, -2.0), (Anchor::TOP, 2.0)];
-    let along = || points.iter().step_by(8).copied();
+    let spread = || points.iter().step_by(8).copied();
     let places =
-        sides.into_iter().flat_map(|(anchor, y)| along().map(move |at| Place { at, anchor, offset: [0.0, y] }));
-    let starts = along().step_by(4).collect();
+        sides.into_iter().flat_map(|(anchor, y)| spread().map(move |at| Place { at, anchor, offset: [0.0, y] }));
+    let starts = spread().step_by(4).collect();
     let label = Label { starts, ..Label::new("just visible", InkRole::Weak, places.collect()) };
     let name = format!("just visible to half of observers: Δu′v′ {JUST_VISIBLE}");
     let line = Mark::new(PickIndex::NONE, name, Shape::Line { points, closed: false });
@@ -245,17 +265,16 @@ fn cut(marks: &[Mark], top: f64, height: f64) -> Vec<Mark> {
 
 /// The line at the document's temperature.
 pub(super) fn cursor(kelvin: f64, top: f64) -> Mark {
-    let mired = 1e6 / kelvin;
-    let line = Shape::Line { points: vec![[mired, 0.0], [mired, top]], closed: false };
+    let line = Shape::Line { points: vec![[along(kelvin), 0.0], [along(kelvin), top]], closed: false };
     Mark::new(PickIndex::NONE, "temperature", line).with_stroke(InkRole::Text, 1.5)
 }
 
 /// Its number, on the side that has room.
 fn cursor_text(kelvin: f64, top: f64) -> Label {
-    let at = |share: f64, (anchor, x)| Place { at: [1e6 / kelvin, share * top], anchor, offset: [x, 0.0] };
+    let at = |share: f64, (anchor, x)| Place { at: [along(kelvin), share * top], anchor, offset: [x, 0.0] };
     let sides = [(Anchor::RIGHT, -5.0), (Anchor::LEFT, 5.0)];
     let shares = [0.5, 0.62, 0.38, 0.74, 0.68, 0.56, 0.44, 0.32, 0.26];
     let places = shares.into_iter().flat_map(|share| sides.map(|side| at(share, side))).collect();
-    let starts = [0.3, 0.5, 0.7].map(|share| [1e6 / kelvin, share * top]).to_vec();
+    let starts = [0.3, 0.5, 0.7].map(|share| [along(kelvin), share * top]).to_vec();
     Label { starts, ..Label::new(format!("{kelvin:.0} K"), InkRole::Text, places) }
 }

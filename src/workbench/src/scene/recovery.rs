@@ -89,9 +89,8 @@ pub(super) fn sensors(cameras: &[SetPlace], ask: &impl Ask) -> Result<Vec<(Strin
 
 impl Scene<'_> {
     /// Patches recorded under the light on the scene, with the standard deviations of their values by the pixels where they are known, and
-    /// of what model and recording differ by beyond that, relative to a value; in rows of so many
-    /// columns, where known. With `is_daylight` the light on the scene stands in for
-    /// daylight of unknown temperature.
+    /// of what model and recording differ by beyond that, relative to a value; in rows of so many columns, 24 patches else in rows
+    /// of 6. With `is_daylight` the light on the scene stands in for daylight of unknown temperature.
     pub fn chart_shot(
         &self,
         (patches, pixels): (Vec<RecordedPatch>, Vec<[f64; 3]>),
@@ -102,8 +101,8 @@ impl Scene<'_> {
         let light = (*self.light()?.grid).clone();
         let name = if is_daylight { "daylight".to_owned() } else { self.light_name() };
         let (chart, picture) = (self.document.chart.clone(), String::new());
-        let mut shot = Shot::new(patches, light, &pixels, relative);
-        shot.columns = columns.or(shot.columns);
+        let columns = columns.or_else(|| (patches.len() == 24).then_some(6));
+        let shot = Shot::new(patches, columns, light, &pixels, relative);
         Ok(ChartShot { shot: Shared::new(shot), is_daylight, light: name, chart, picture })
     }
 

@@ -275,26 +275,32 @@ const APART: f64 = 8.0;
 /// The position of a point's arrow, or its own where it lies in the plot.
 fn inward(at: [f64; 2], frame: &Frame) -> [f64; 2] {
     const INSET: f64 = ARROW + 3.0;
-    if frame.contains(at, 0.0) { at } else { [0, 1].map(|axis| at[axis].min(frame.size[axis] - INSET).max(INSET)) }
+    [0, 1].map(|axis| at[axis].min(frame.size[axis] - INSET).max(INSET))
 }
 
 /// A point, or that of its arrow.
 fn held_inside(point: [f64; 2], frame: &Frame) -> [f64; 2] {
-    frame.value(inward(frame.at(point), frame))
+    let at = frame.at(point);
+    if frame.contains(at, 0.0) { point } else { frame.value(inward(at, frame)) }
 }
 
-/// Adds an arrow for each patch that lies outside the plot; those close together share one.
+/// Share of the plot beside its frame in which marks may be cut.
+const EDGE: f64 = 0.03;
+
+/// Adds an arrow for each patch that lies outside the plot, and in place of each that the frame cuts; those close together share
+/// one.
 pub(super) fn add_arrows(drawing: &mut Drawing<'_>) {
     let frame = drawing.frame;
+    let whole = |at: [f64; 2], radius: f64| frame.contains(at, radius.min(EDGE * frame.size[0].min(frame.size[1])));
     let mut arrows: Vec<Mark> = Vec::new();
     let mut taken: Vec<([f64; 2], InkRole)> = Vec::new();
     for mark in &drawing.points {
-        let Shape::Points { points, .. } = &mark.shape else { continue };
+        let Shape::Points { points, radius, .. } = &mark.shape else { continue };
         let Some(ink) = mark.stroke.map(|stroke| stroke.ink).or(mark.fill) else { continue };
-        for at in points.iter().map(|point| frame.at(*point)).filter(|at| !frame.contains(*at, 0.0)) {
+        for at in points.iter().map(|point| frame.at(*point)).filter(|at| !whole(*at, *radius)) {
             let beyond = [0, 1].map(|axis| (-at[axis]).max(at[axis] - frame.size[axis]));
             let axis = usize::from(beyond[1] > beyond[0]);
-            let marker = match (axis, at[axis] < 0.0) {
+            let marker = match (axis, 2.0 * at[axis] < frame.size[axis]) {
                 (0, true) => Marker::TriangleLeft,
                 (0, false) => Marker::TriangleRight,
                 (_, true) => Marker::TriangleUp,
@@ -314,5 +320,10 @@ pub(super) fn add_arrows(drawing: &mut Drawing<'_>) {
             arrows.push(arrow.with_stroke(ink, 1.2).with_fill(InkRole::Plot).with_halo(InkRole::Plot));
         }
     }
+    let is_cut = |mark: &Mark| {
+        matches!(&mark.shape, Shape::Points { points, radius, .. }
+            if points.iter().map(|point| frame.at(*point)).all(|at| frame.contains(at, 0.0) && !whole(at, *radius)))
+    };
+    drawing.points.retain(|mark| !is_cut(mark));
     drawing.small.append(&mut arrows);
 }

@@ -85,7 +85,7 @@ pub(super) fn build(scene: &Scene<'_>, size: [f64; 2]) -> Result<Built, String> 
             let tag = things.tag(PlotItem::Sensor(id(source)));
             let height = |offset: &LocusDeviation| value(offset).map_or(f64::NAN, |value| strip::root(factor * value));
             let point = |(kelvin, offset): &(Kelvin, Option<LocusDeviation>)| match offset {
-                Some(offset) => [kelvin.mired(), height(offset)],
+                Some(offset) => [strip::along(kelvin.get()), height(offset)],
                 None => [f64::NAN; 2],
             };
             let points: Vec<[f64; 2]> = offsets.iter().map(point).collect();
@@ -99,11 +99,9 @@ pub(super) fn build(scene: &Scene<'_>, size: [f64; 2]) -> Result<Built, String> 
             if !beyond.is_empty() {
                 panel.marks.push(line(beyond).with_dash(Dash::Dotted));
             }
-            let share = 0.3 + 0.08 * (index % 6) as f64;
-            let at = points[(share * points.len() as f64) as usize % points.len().max(1)];
-            signs.push(sign(tag, source, at, 4.0, source.role));
+            signs.extend(strip::marked(&points, index).map(|at| sign(tag, source, at, 4.0, source.role)));
             if let Some((kelvin, offset)) = minimum(scene, source) {
-                let at = [1e6 / kelvin, height(&offset)];
+                let at = [strip::along(kelvin), height(&offset)];
                 let tag = things.tag(PlotItem::Radiator { source: id(source), kelvin: kelvin.round() });
                 let ring = Shape::Points { points: vec![at], marker: Marker::Circle, radius: 3.5 };
                 let ring = Mark::new(tag, format!("{}: minimum at {kelvin:.0} K", source.label), ring);

@@ -320,16 +320,17 @@ impl<'a> Board<'a> {
         let bar = Shape::Rect { min: [x0, middle - 0.5 * BAR], max: [x0 + share * (right - x0), middle + 0.5 * BAR] };
         self.marks.push(Mark::new(PickIndex::NONE, "difference", bar).with_fill(InkRole::OnSurround));
         if difference > metric.full_scale {
-            let points = vec![[right - 3.0, middle - 3.5], [right + 1.0, middle], [right - 3.0, middle + 3.5]];
+            let points = vec![[right - 3.0, middle - 2.5], [right + 1.0, middle], [right - 3.0, middle + 2.5]];
             let sign = Mark::new(PickIndex::NONE, "beyond the scale", Shape::Polygon { points });
             self.marks.push(sign.with_fill(InkRole::OnSurround));
         }
         if is_chart && share < NUMBERED {
             return;
         }
+        // A little lower, so that no digit touches the color above.
         match note {
-            Note::Beside | Note::Close => self.marks.push(small(&words, [x1, middle], Anchor::RIGHT)),
-            Note::Above => self.marks.push(small(&words, [x0, y0 + 0.5 * NUMBER], Anchor::LEFT)),
+            Note::Beside | Note::Close => self.marks.push(small(&words, [x1, middle + 0.5], Anchor::RIGHT)),
+            Note::Above => self.marks.push(small(&words, [x0, y0 + 0.5 * NUMBER + 1.0], Anchor::LEFT)),
             Note::Bar | Note::None => {}
         }
     }
