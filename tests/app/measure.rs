@@ -326,8 +326,9 @@ fn a_picture_that_holds_no_raw_values_says_what_to_do() {
     ] {
         std::fs::write(folder.join(name), bytes).unwrap();
         window.state_mut().push(Command::OpenPath(folder.join(name)));
-        until(&mut window, &format!("{name}: "));
-        let told = window.query_by_label_contains(&format!("{name}: ")).unwrap();
+        let told = format!("{name}: ");
+        until(&mut window, &told);
+        let told = window.query_by_label_contains(&told).unwrap();
         assert!(told.accesskit_node().label().is_some_and(|label| label.contains(words)), "{name}");
     }
 }

@@ -13,7 +13,7 @@ use crate::catalog::recorded_store::{ChartPhoto, RecordedContent};
 use crate::document::PHOTOGRAPHED_CHART;
 use crate::document::imported::Fingerprint;
 use crate::document::measurement::{MY_CAMERA, MeasuredShot};
-use crate::format::{file_name, path_end, sentence};
+use crate::format::{file_name, path_end};
 use crate::paint::{self, PlotOptions};
 use crate::panes::context::PaneContext;
 use crate::panes::widgets;
@@ -87,7 +87,7 @@ fn open(context: &PaneContext<'_>) -> Vec<PathBuf> {
 /// Says which pictures are not measured, beside the list of those that are: they can be done without.
 pub(super) fn others(ui: &mut Ui, context: &mut PaneContext<'_>) {
     let open = open(context).into_iter().map(|path| (format!("{} is not measured yet.", file_name(&path)), path));
-    let failed = context.view.recorded.failed.clone().into_iter().map(|(path, why)| (sentence(&why), path));
+    let failed = context.view.recorded.failed.clone().into_iter().map(|(path, why)| (why + ".", path));
     for (words, path) in open.chain(failed) {
         ui.horizontal_wrapped(|ui| {
             ui.colored_label(context.theme.error, words);
