@@ -30,6 +30,7 @@ impl ChromascopeApp {
     pub(super) fn measure_from(&mut self, path: PathBuf) {
         self.end_tour();
         self.recorded.read_again(&path);
+        self.view.recorded.failed.clear();
         self.view.recorded.photos.insert(path.clone(), None);
         self.view.recorded.photo = Some(path);
         let measurement = &self.history.document().measurement;

@@ -14,6 +14,7 @@ use egui::{Label, Rect, RichText, TextEdit, Ui};
 
 use super::context::{Pane, PaneContext};
 use crate::action::Action;
+use crate::catalog::chart_picture::CONVERTERS;
 use crate::catalog::file_store::FileState;
 use crate::catalog::recorded_store::RecordedContent;
 use crate::command::Command;
@@ -52,6 +53,8 @@ struct State {
     /// The last question, and what it is of.
     asked: Option<(Measurement, MeasuredCameraQuery)>,
     shown: Option<Shown>,
+    /// True for the frame after a link to the curves was clicked.
+    is_led: bool,
     /// True if the answer is to be used in spite of what is doubtful about it.
     is_accepted: bool,
 }
@@ -76,6 +79,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         results::add(ui, context);
         if ui.button("Start anew").on_hover_text("Remove all files of this measurement").clicked() {
             (context.view.recorded.photo, context.view.recorded.photos) = (None, BTreeMap::new());
+            context.view.recorded.failed.clear();
             change(context, "Start a measurement anew", |measurement| *measurement = Measurement::default());
         }
     });
@@ -86,16 +90,17 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         let is_empty = context.scene.document.measurement.shots.is_empty();
         if is_empty && context.view.recorded.photo.is_none() {
             ui.add(Label::new(ABOUT).wrap());
-            return;
+            let converted = "Raw files of makers (NEF, CR3, ARW and others) are converted to DNG first, with";
+            ui.add(Label::new(format!("{converted} {CONVERTERS}, both free of charge.")).wrap());
         }
         picture::show(ui, context);
         if !is_empty {
             shots(ui, context);
-            widgets::note(
-                ui,
-                "The session keeps the values of the patches, corners, lights and curves, not the photographs.",
-            );
+        }
+        picture::others(ui, context);
+        if !is_empty && context.scene.document.measurement.mixed().is_none() {
             results::show(ui, context);
+            widgets::note(ui, "The session keeps patches, corners, lights and curves, not the photographs.");
         }
     });
 }
@@ -134,6 +139,13 @@ fn shots(ui: &mut Ui, context: &mut PaneContext<'_>) {
     camera(ui, context);
     for (index, shot) in context.scene.document.measurement.shots.iter().enumerate() {
         ui.push_id(index, |ui| ui.horizontal_wrapped(|ui| one_shot(ui, index, shot, context)));
+    }
+    if let Some(mixed) = context.scene.document.measurement.mixed() {
+        wrong(ui, &format!("{mixed}: remove the pictures of one of them, or say that they are one camera"), context);
+        let hint = "The curves are recovered from all pictures; profiles are for the model of the first";
+        if ui.button("They are one camera").on_hover_text(hint).clicked() {
+            change(context, "Pictures of one camera", |measurement| measurement.is_one_camera = true);
+        }
     }
 }
 
@@ -183,7 +195,8 @@ fn one_shot(ui: &mut Ui, index: usize, shot: &MeasuredShot, context: &mut PaneCo
         _ => drop(ui.label(&shot.file)),
     }
     ui.label("under");
-    let mut lights = vec![(Line::new(UNKNOWN, shot.is_daylight()), (Light::Daylight, None))];
+    let daylight = Line { also: "sun outdoors sky cloudy".to_owned(), ..Line::new(UNKNOWN, shot.is_daylight()) };
+    let mut lights = vec![(daylight, (Light::Daylight, None))];
     let of_scene = (scene.document.light.clone(), Some(scene.document.temperature_k));
     if !matches!(of_scene.0, Light::Set(_)) {
         let is_on = (shot.light.as_ref(), shot.temperature_k) == (Some(&of_scene.0), of_scene.1);
@@ -233,6 +246,7 @@ fn one_shot(ui: &mut Ui, index: usize, shot: &MeasuredShot, context: &mut PaneCo
         // Else it would be taken again beside the next one.
         recorded.photos.retain(|path, of| !is_it(shot, path, *of));
         recorded.photo.take_if(|path| !recorded.photos.contains_key(path));
+        context.states.of::<State>().taken.take_if(|path| !recorded.photos.contains_key(path));
         change(context, "Remove a picture", |measurement| {
             measurement.shots.remove(index);
         });

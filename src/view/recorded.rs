@@ -22,6 +22,8 @@ pub struct RecordedView {
     pub photo: Option<PathBuf>,
     /// All such pictures that were opened, with the contents of those that were read.
     pub photos: BTreeMap<PathBuf, Option<Fingerprint>>,
+    /// Those of the last opening of which nothing could be made, with the reason.
+    pub failed: BTreeMap<PathBuf, String>,
     pub freedom: Freedom,
     /// Raw value from which on a channel of a table is clipped; 0 for none.
     pub clip: f64,

@@ -15,9 +15,10 @@ const FOLDERS: [&str; 8] =
 const RESPONSES: [&str; 5] =
     ["per energy (stated)", "per energy (inferred)", "per photon (stated)", "per photon (inferred)", "unknown"];
 /// Header keys in the required order; the flag marks optional keys.
-const KEYS: [(&str, bool); 10] = [
+const KEYS: [(&str, bool); 11] = [
     ("title", false),
     ("also", true),
+    ("found by", true),
     ("short", true),
     ("quantity", false),
     ("unit", false),

@@ -13,7 +13,7 @@ mod names;
 mod outputs;
 mod presets;
 mod radiance;
-mod recover;
+pub(crate) mod recover;
 mod reference;
 mod report;
 mod sets;

@@ -38,6 +38,7 @@ mod keyboard;
 mod library;
 mod lights;
 mod measure;
+mod measure_shots;
 mod measured_doubts;
 mod meshes;
 mod metrics;

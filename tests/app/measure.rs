@@ -23,11 +23,11 @@ use crate::cpu_renderer::Cpu;
 use crate::recorded::{recording, recording_of};
 use crate::waiting;
 
-type Window = Harness<'static, ChromascopeApp>;
+pub(crate) type Window = Harness<'static, ChromascopeApp>;
 
 const CORNERS: [[f64; 2]; 4] = [[60.0, 40.0], [540.0, 40.0], [540.0, 360.0], [60.0, 360.0]];
 
-fn window() -> Window {
+pub(crate) fn window() -> Window {
     window_on(&Executor::default())
 }
 
@@ -45,7 +45,7 @@ fn window_on(executor: &Executor) -> Window {
 }
 
 /// A picture of the chart with gaps of a width between its patches, on a dark frame.
-fn picture(name: &str, gap: u32) -> PathBuf {
+pub(crate) fn picture(name: &str, gap: u32) -> PathBuf {
     let (rows, path) = (recording(), Path::new(env!("CARGO_TARGET_TMPDIR")).join(name));
     let pixel = |x: u32, y: u32| {
         if !(60..540).contains(&x) || !(40..360).contains(&y) {
@@ -62,7 +62,7 @@ fn picture(name: &str, gap: u32) -> PathBuf {
     path
 }
 
-fn until(window: &mut Window, words: &str) {
+pub(crate) fn until(window: &mut Window, words: &str) {
     waiting::until(words, || {
         window.run_steps(2);
         window.query_by_label_contains(words).map(|_| ()).ok_or_else(|| "not yet".to_owned())
@@ -70,7 +70,7 @@ fn until(window: &mut Window, words: &str) {
 }
 
 /// Names the light of a picture.
-fn name_light(window: &mut Window, shot: usize, light: Light) {
+pub(crate) fn name_light(window: &mut Window, shot: usize, light: Light) {
     let mut to = window.state().history.document().measurement.clone();
     to.shots[shot].light = Some(light);
     window.state_mut().push(Command::Do(Action::Measure("Light of a picture", Box::new(to))));
@@ -86,7 +86,7 @@ fn own_light() -> Light {
     Document::colorimetry().light
 }
 
-fn cameras(window: &Window) -> Vec<String> {
+pub(crate) fn cameras(window: &Window) -> Vec<String> {
     let own = &window.state().history.document().own;
     own.iter().filter(|set| SetKind::of_own(set) == SetKind::Camera).map(|set| set.name.clone()).collect()
 }
@@ -326,7 +326,10 @@ fn a_picture_that_holds_no_raw_values_says_what_to_do() {
     ] {
         std::fs::write(folder.join(name), bytes).unwrap();
         window.state_mut().push(Command::OpenPath(folder.join(name)));
-        until(&mut window, words);
+        let told = format!("{name}: ");
+        until(&mut window, &told);
+        let told = window.query_by_label_contains(&told).unwrap();
+        assert!(told.accesskit_node().label().is_some_and(|label| label.contains(words)), "{name}");
     }
 }
 

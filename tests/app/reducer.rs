@@ -42,6 +42,7 @@ fn own(name: &str, role: Role) -> ImportedSet {
         channels: [0, 1, 2],
         curves: ["r", "g", "b"].map(curve).into(),
         measured: None,
+        model: None,
         covariance: None,
         decisions: Vec::new(),
     }

@@ -1,5 +1,7 @@
 //! Reasons that bytes make no raw image.
 
+/// Free converters from the raw files of makers to DNG.
+pub const CONVERTERS: &str = "Adobe DNG Converter or dnglab";
 /// Remedy for what no DNG converter makes readable.
 pub(crate) const DEVELOP: &str = "develop it to a linear TIFF in camera RGB with LibRaw's `dcraw_emu -4 -T -o 0 -r 1 1 1 1` (or `dcraw` with the same options)";
 
@@ -9,9 +11,7 @@ pub(crate) const DEVELOP: &str = "develop it to a linear TIFF in camera RGB with
 pub enum RawImageError {
     #[error("not a DNG (no TIFF header with a DNGVersion); open a DNG, or a linear TIFF, PNG or EXR as a picture")]
     NotDng,
-    #[error(
-        "{format} is not read: convert it to DNG with Adobe DNG Converter or dnglab, or {DEVELOP}, all free of charge"
-    )]
+    #[error("{format} is not read: convert it to DNG with {CONVERTERS}, or {DEVELOP}, all free of charge")]
     OtherRaw { format: &'static str },
     #[error("{0}; the file is damaged or incomplete, copy it again")]
     Directory(#[from] tiff::TiffError),

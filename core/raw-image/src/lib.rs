@@ -18,7 +18,7 @@ use rayon::prelude::*;
 
 use directory::{Directories, tag};
 use error::DEVELOP;
-pub use error::{LosslessJpegError, RawImageError};
+pub use error::{CONVERTERS, LosslessJpegError, RawImageError};
 use layout::Layout;
 use levels::Levels;
 pub use metadata::{DngColorMatrix, RawMetadata};

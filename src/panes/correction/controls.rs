@@ -9,7 +9,7 @@ use crate::action::{Action, SceneAction};
 use crate::command::Command;
 use crate::document::SetKind;
 use crate::document::correction::CorrectionChoice;
-use crate::export::profile::{CorrectionForm, unique_camera_model};
+use crate::export::profile::{CorrectionForm, stated_model};
 use crate::panes::context::PaneContext;
 use crate::panes::widgets::pick_list::{self, Line};
 use crate::panes::widgets::sets;
@@ -47,9 +47,9 @@ pub(super) fn stated(ui: &mut Ui, camera: &str, ratio: Option<ChannelRatio>, con
     let neutral = view.neutrals.entry(key).or_default();
     let own = if ratio.is_some_and(|ratio| !ratio.is_credible()) { "not given" } else { "the table's own" };
     field(ui, ("Neutral", &hint), neutral, own);
-    let model = view.models.entry(camera.to_owned()).or_default();
+    let (model, stated) = (view.models.entry(camera.to_owned()).or_default(), stated_model(&context.scene, camera));
     let hint = "UniqueCameraModel, as raw files of the camera state it; raw developers choose a DCP file by it";
-    field(ui, ("Model", hint), model, &unique_camera_model(camera));
+    field(ui, ("Model", hint), model, &stated);
     let (words, color) = match (context.view.correction.neutral(&context.scene, camera), ratio) {
         (Err(error), _) => (format!("Neutral: {error}"), theme.error),
         (Ok(None), Some(ratio)) if !ratio.is_credible() => {

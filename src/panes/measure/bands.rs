@@ -42,7 +42,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         Ok(None) => return drop(ui.weak("Computing…")),
         Ok(Some(found)) => found,
     };
-    results::added(ui, context);
+    results::added(ui, &found.curves, context);
     results::plot(ui, &found.curves, found.shift_nm.as_ref().map(|(_, table)| table.as_str()), context);
     ui.add(Label::new(RichText::new(CURVES).small().color(context.theme.weak)).wrap());
     for line in measured::band_conditions(&found) {

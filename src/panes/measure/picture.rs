@@ -7,10 +7,11 @@ use chromascope_core::camera::chart_search::CHART_SIZE;
 use chromascope_figure::{Axis, Dash, InkRole, Mark, Marker, Panel, Shape, Tag};
 use egui::{Id, Label, RichText, Sense, Ui, Vec2};
 
-use super::{State, change, heading, wrong};
+use super::{State, change, heading};
 use crate::catalog::file_store::FileState;
 use crate::catalog::recorded_store::{ChartPhoto, RecordedContent};
 use crate::document::PHOTOGRAPHED_CHART;
+use crate::document::imported::Fingerprint;
 use crate::document::measurement::{MY_CAMERA, MeasuredShot};
 use crate::format::{file_name, path_end};
 use crate::paint::{self, PlotOptions};
@@ -37,12 +38,9 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         }
         FileState::Failed(why) => {
             // Others that are not measured yet go on without it.
-            context.view.recorded.photos.remove(&path);
-            next(context);
-            if context.view.recorded.photo.as_ref() != Some(&path) {
-                return context.view.fail(why.clone());
-            }
-            return wrong(ui, &why, context);
+            discard(&path, context);
+            context.view.recorded.failed.insert(path, why);
+            return;
         }
     };
     let RecordedContent::Picture(photo) = &file.content else { return };
@@ -77,16 +75,45 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     draw(ui, &path, photo, &corners, context);
 }
 
+/// Pictures that are not measured yet.
+fn open(context: &PaneContext<'_>) -> Vec<PathBuf> {
+    let measurement = &context.scene.document.measurement;
+    let is_open =
+        |path: &Path, of: Option<Fingerprint>| of.and_then(|of| measurement.place(of, &file_name(path))).is_none();
+    let photos = context.view.recorded.photos.iter();
+    photos.filter(|(path, of)| is_open(path, **of)).map(|(path, _)| path.clone()).collect()
+}
+
+/// Says which pictures are not measured, beside the list of those that are: they can be done without.
+pub(super) fn others(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let open = open(context).into_iter().map(|path| (format!("{} is not measured yet.", file_name(&path)), path));
+    let failed = context.view.recorded.failed.clone().into_iter().map(|(path, why)| (why + ".", path));
+    for (words, path) in open.chain(failed) {
+        ui.horizontal_wrapped(|ui| {
+            ui.colored_label(context.theme.error, words);
+            if ui.button("Discard").on_hover_text(format!("Do without {}", file_name(&path))).clicked() {
+                discard(&path, context);
+            }
+        });
+    }
+}
+
+/// Leaves a picture: another one that is not measured yet is shown, else one that is.
+fn discard(path: &Path, context: &mut PaneContext<'_>) {
+    context.states.of::<State>().taken.take_if(|taken| taken == path);
+    let recorded = &mut context.view.recorded;
+    (recorded.photos.remove(path), recorded.failed.remove(path));
+    if recorded.photo.as_deref() == Some(path) {
+        recorded.photo = recorded.photos.keys().next().cloned();
+        next(context);
+    }
+}
+
 /// Shows a picture that is not measured yet in place of one that is.
 fn next(context: &mut PaneContext<'_>) {
-    let recorded = &mut context.view.recorded;
-    let measurement = &context.scene.document.measurement;
-    let mut open = recorded
-        .photos
-        .iter()
-        .filter(|(path, contents)| contents.is_none_or(|of| measurement.place(of, &file_name(path)).is_none()));
-    if let Some((path, _)) = open.find(|(path, _)| recorded.photo.as_ref() != Some(path)) {
-        recorded.photo = Some(path.clone());
+    let open = open(context).into_iter().find(|path| context.view.recorded.photo.as_ref() != Some(path));
+    if open.is_some() {
+        context.view.recorded.photo = open;
     }
 }
 
@@ -110,14 +137,15 @@ fn take(path: &Path, photo: &ChartPhoto, context: &mut PaneContext<'_>) {
             return context.view.fail(format!("{}: {error}.", file_name(path)));
         }
     };
-    let (camera, contents, photos) = (photo.picture.camera(), photo.contents, context.view.recorded.photos.clone());
+    let (camera, model) = (photo.picture.camera(), photo.picture.model());
+    let (contents, photos) = (photo.contents, context.view.recorded.photos.clone());
     change(context, "Patches of a picture", |measurement| {
         if measurement.camera.is_empty() {
             measurement.camera = camera.unwrap_or_else(|| MY_CAMERA.to_owned());
         }
         if let Some(index) = measurement.place(contents, &file_name(path)) {
             let shot = &mut measurement.shots[index];
-            (shot.corners, shot.patches) = (corners, patches);
+            (shot.corners, shot.patches, shot.model) = (corners, patches, model);
             return;
         }
         let is_namesake = |shot: &MeasuredShot| Path::new(&shot.file).ends_with(file_name(path));
@@ -132,9 +160,12 @@ fn take(path: &Path, photo: &ChartPhoto, context: &mut PaneContext<'_>) {
         }
         let file = path_end(path, &paths);
         let contents = Some(contents);
+        // The user's word was about the models before.
+        measurement.is_one_camera &= model.is_none() || measurement.shots.iter().any(|shot| shot.model == model);
         measurement.shots.push(MeasuredShot {
             file,
             contents,
+            model,
             chart,
             light: None,
             temperature_k: None,

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use chromascope_core::camera::recorded::Freedom;
 use chromascope_core::query::{ChartMeasurement, RecordedSet, Shared};
 use chromascope_core::recovery::RecoveredCurves;
-use egui::{Button, Id, Label, RichText, Sense, Ui, Vec2};
+use egui::{Align, Button, Id, Label, RichText, Sense, Ui, Vec2};
 
 use super::{Shown, State, bands, heading, wrong};
 use crate::action::{Action, ImportedAction};
@@ -14,18 +14,21 @@ use crate::document::imported::ImportedSet;
 use crate::document::measurement::Measurement;
 use crate::document::{Document, SensorId, SetKind};
 use crate::export::measured;
+use crate::export::profile::CorrectionForm;
 use crate::export::profile::shot::ShotCorrection;
-use crate::figures::measured as figure;
-use crate::format::fixed;
+use crate::figures::{measured as figure, metrics};
+use crate::format::{fixed, rank_in_words};
 use crate::paint::{self, PlotOptions};
 use crate::panes::context::PaneContext;
 use crate::panes::widgets;
 use crate::panes::widgets::table::DataTable;
 use crate::plot_item::PlotItem;
+use crate::scene::metrics::{RankedCameras, Ranking};
 use crate::scene::recorded::{RANK_CAUTION, RankedCamera};
 use crate::theme::UNIT;
 use crate::workspaces::{PaneKind, Workspace};
 
+const UPDATE: &str = "Update in the library";
 const CURVES: f32 = 300.0;
 /// Width from which on tables stand side by side.
 const TWO_COLUMNS: f32 = 1100.0;
@@ -54,8 +57,9 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         heading(ui, "Computing…");
     }
     ui.add_enabled_ui(is_current, |ui| {
+        headline(ui, &measured, context);
         warn(ui, &doubts, context);
-        added(ui, context);
+        added(ui, &measured.recovery.curves, context);
         curves(ui, &measured, context);
         for line in measured::conditions(&measured) {
             ui.add(Label::new(RichText::new(line).small()).wrap());
@@ -140,13 +144,33 @@ fn warn(ui: &mut Ui, doubts: &[String], context: &mut PaneContext<'_>) {
     }
 }
 
-/// Ways on, once the camera is in the library.
-pub(super) fn added(ui: &mut Ui, context: &mut PaneContext<'_>) {
-    let Document { own, measurement, .. } = context.scene.document;
-    let known = own.iter().find(|set| set.measured.is_some() && set.measured == measurement.origin());
-    let Some(name) = known.map(|set| set.name.clone()) else { return };
+/// The result in one line, with a link to what is below.
+fn headline(ui: &mut Ui, measured: &ChartMeasurement, context: &mut PaneContext<'_>) {
+    let first = context.scene.document.measurement.shots.first().map_or("", |shot| shot.file.as_str());
     ui.horizontal_wrapped(|ui| {
-        ui.label(format!("{name} is one of your cameras."));
+        ui.add(Label::new(RichText::new(measured::headline(measured, first).unwrap_or_default()).strong()).wrap());
+        context.states.of::<State>().is_led |= ui.link("Curves, profile and patches").clicked();
+    });
+}
+
+/// The camera of this measurement in the library; true with other curves than these.
+fn in_library<'a>(curves: &RecoveredCurves, document: &'a Document) -> Option<(&'a ImportedSet, bool)> {
+    let Document { own, measurement, .. } = document;
+    let known: &ImportedSet = own.iter().find(|set| set.measured.is_some() && set.measured == measurement.origin())?;
+    Some((known, known.curves.iter().zip(&curves.values).any(|(of, values)| of.values != *values)))
+}
+
+/// Rank and ways on, once the camera is in the library.
+pub(super) fn added(ui: &mut Ui, curves: &RecoveredCurves, context: &mut PaneContext<'_>) {
+    let Some((known, is_stale)) = in_library(curves, context.scene.document) else { return };
+    let name = known.name.clone();
+    ui.horizontal_wrapped(|ui| {
+        if is_stale {
+            let words = format!("{name} in the library has the curves of before: see {UPDATE} above.");
+            ui.colored_label(context.theme.warning, words);
+        } else {
+            ui.label(format!("{name} is one of your cameras{}.", rank(&name, context).unwrap_or_default()));
+        }
         for workspace in [Workspace::Rank, Workspace::Compare] {
             if ui.button(format!("Show in {}", workspace.label())).clicked() {
                 context.push(Command::Select(camera(&name)));
@@ -156,12 +180,24 @@ pub(super) fn added(ui: &mut Ui, context: &mut PaneContext<'_>) {
     });
 }
 
+/// Rank in the library by the metric that it is sorted by at first, once it is computed.
+fn rank(name: &str, context: &mut PaneContext<'_>) -> Option<String> {
+    let ranked = context.states.of::<Ranking>().ask(context.later, &context.scene, RankedCameras::Library);
+    let at = ranked.cameras.iter().position(|camera| camera.id.name == name)?;
+    let metric = metrics::first(&context.scene)?;
+    let rank = rank_in_words(Some(metrics::ranks(&ranked, metric)[at]?));
+    Some(format!(", {rank} of {} by {}", ranked.cameras.len(), metric.symbol))
+}
+
 fn camera(name: &str) -> PlotItem {
     PlotItem::Sensor(SensorId { kind: SetKind::Camera, name: name.to_owned() })
 }
 
 /// Recovered curves, with a table of the library behind them.
 pub(super) fn plot(ui: &mut Ui, curves: &RecoveredCurves, nearest: Option<&str>, context: &mut PaneContext<'_>) {
+    if std::mem::take(&mut context.states.of::<State>().is_led) {
+        ui.scroll_to_cursor(Some(Align::TOP));
+    }
     heading(ui, "Curves");
     let size = Vec2::new(ui.available_width(), CURVES);
     let (place, _) = ui.allocate_exact_size(size, Sense::hover());
@@ -178,37 +214,31 @@ pub(super) fn plot(ui: &mut Ui, curves: &RecoveredCurves, nearest: Option<&str>,
 fn curves(ui: &mut Ui, measured: &ChartMeasurement, context: &mut PaneContext<'_>) {
     let nearest = measured.nearest.first().map(|(name, _)| name.as_str());
     plot(ui, &measured.recovery.curves, nearest, context);
-    let nearest: Vec<String> = measured
-        .nearest
-        .iter()
-        .take(3)
-        .map(|(name, distance)| format!("{name} ({} %)", fixed(100.0 * distance, 1)))
-        .collect();
-    let words = format!(
-        "Good for color, a guess where the band (2 standard deviations) is wide. Dotted: share of the data at each wavelength, the rest \
-         is the library's. Dashed: the nearest table. Nearest by the difference of the curves: {}.",
-        nearest.join(", ")
-    );
+    let words = "Good for color, a guess where the band (2 standard deviations) is wide. Dotted: share of the data at each wavelength, the \
+        rest is the library's. Dashed: the nearest table.";
     ui.add(Label::new(RichText::new(words).small().color(context.theme.weak)).wrap());
 }
 
 /// Button that puts what is shown to use.
 pub(super) fn add(ui: &mut Ui, context: &mut PaneContext<'_>) {
     if context.scene.document.measurement.passes.is_empty() {
-        return put(ui, usable(context), measured::set_of_chart, context);
+        return put(ui, usable(context), |of| &of.recovery.curves, measured::set_of_chart, context);
     }
     let found = bands::answer(context).ok().flatten().ok_or("There is no result of these bands");
-    put(ui, found, measured::set_of_bands, context);
+    put(ui, found, |of| &of.curves, measured::set_of_bands, context);
 }
 
 fn put<T>(
     ui: &mut Ui,
     usable: Result<Arc<T>, &'static str>,
+    curves: impl Fn(&T) -> &RecoveredCurves,
     set: impl Fn(&Measurement, &T) -> ImportedSet,
     context: &mut PaneContext<'_>,
 ) {
     let hint = "As a camera with its uncertainties: it is compared and ranked, and saved from Data in all formats";
-    let button = ui.add_enabled(usable.is_ok(), Button::new("Add to the library and compare"));
+    let known = usable.as_ref().ok().and_then(|of| in_library(curves(of), context.scene.document));
+    let words = if known.is_some_and(|(_, is_stale)| is_stale) { UPDATE } else { "Add to the library and compare" };
+    let button = ui.add_enabled(usable.is_ok(), Button::new(words));
     let button = button.on_hover_text(hint).on_disabled_hover_text(usable.as_ref().err().map_or(hint, |why| *why));
     if let Some(measured) = usable.ok().filter(|_| button.clicked()) {
         let scene = context.scene;
@@ -237,27 +267,29 @@ fn profile(ui: &mut Ui, measured: &ChartMeasurement, context: &mut PaneContext<'
     for words in [measured::COLUMNS, measured::UNCERTAINTY] {
         ui.add(Label::new(RichText::new(words).small()).wrap());
     }
-    if let Some(words) = measured::left_out(measured) {
-        ui.add(Label::new(RichText::new(words).small()).wrap());
-    }
-    let camera = context.scene.document.measurement.camera.clone();
+    let measurement = &context.scene.document.measurement;
+    let (camera, model) = (measurement.camera.clone(), measurement.model());
     let terms = "Fitted to a photograph of a chart by its owner";
-    let correction = ShotCorrection { camera: &camera, model: None, terms, profiles: &measured.profiles };
+    let correction = ShotCorrection { camera: &camera, model, terms, profiles: &measured.profiles };
     let usable = usable(context);
     ui.horizontal_wrapped(|ui| {
-        for form in ShotCorrection::FORMS {
+        for (form, at) in correction.files() {
             let (label, why) = form.words();
-            let hint = format!("{why}: the 3×3 matrix fitted to the patches");
+            let is_one = form == CorrectionForm::Dcp || measured.profiles.len() == 1;
+            let under = if is_one { String::new() } else { format!(" under {}", measured.profiles[at].0) };
+            let hint = format!("{why}: the 3×3 matrix fitted to the patches{under}");
+            let label = label.replace('…', &format!("{under}…"));
             let button = ui.add_enabled(usable.is_ok(), Button::new(label)).on_hover_text(hint);
             if !button.on_disabled_hover_text(usable.as_ref().err().map_or("", |why| *why)).clicked() {
                 continue;
             }
-            match correction.written(form) {
-                Ok(bytes) => context.push(Command::SaveProfile(camera.clone(), form, bytes.into())),
+            match correction.written((form, at)) {
+                Ok(bytes) => context.push(Command::SaveProfile(camera.clone() + &under, form, bytes.into())),
                 Err(error) => context.view.fail(error.to_string()),
             }
         }
     });
+    ui.add(Label::new(RichText::new(correction.model_in_words()).small()).wrap());
 }
 
 /// Cameras whose tables explain the values of all pictures best; without those recovered from them.

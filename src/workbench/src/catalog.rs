@@ -89,7 +89,13 @@ impl Entry {
     /// Words that find it beside its name: short name, gloss and kind.
     pub fn gloss(&self) -> String {
         let kind = if self.kind == SetKind::Illuminant { "CIE light illuminant" } else { self.kind.label() };
-        format!("{} {} {kind} {}", self.short, self.also.as_deref().unwrap_or_default(), self.kind.key())
+        format!("{} {kind} {}", self.synonyms(), self.kind.key())
+    }
+
+    /// Short name, gloss and the words of the file by which it is found.
+    pub fn synonyms(&self) -> String {
+        let found_by = self.header.as_ref().and_then(|header| header.found_by.as_deref());
+        format!("{} {} {}", self.short, self.also.as_deref().unwrap_or_default(), found_by.unwrap_or_default())
     }
 
     pub fn from_own(set: &Shared<ImportedSet>) -> Self {

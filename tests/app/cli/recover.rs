@@ -8,12 +8,12 @@ use crate::measure::large_chart;
 
 #[allow(dead_code, clippy::cast_possible_wrap, reason = "shared with the tests of the reader, whose files are small")]
 #[path = "../../raw-image/writer.rs"]
-mod dng;
+pub(crate) mod dng;
 
 const CHART: &str = "ColorChecker 24 (BabelColor average)";
 
 /// Raw values of the chart under a light through a camera of the library, the brightest at 40000, with noise of up to 0.3 %.
-fn recording(light: &str) -> Vec<(String, [f64; 3])> {
+pub(crate) fn recording(light: &str) -> Vec<(String, [f64; 3])> {
     let asset = |path: &str| Dataset::read(chromascope_data::text(path).unwrap()).unwrap();
     let camera = Sensor::from_dataset(&asset("cameras/nikon_d700.csv")).unwrap();
     let chart = PatchSet::from_dataset(&asset("charts/colorchecker_24_babelcolor_average.csv"));
@@ -74,23 +74,55 @@ fn a_wrong_light_is_refused_beside_a_right_one_with_its_picture() {
     assert!(!done && error.contains("recover_warm.csv by itself") && alone.contains("the light "), "{error} {alone}");
 }
 
-#[test]
-fn the_camera_of_a_dng_names_the_curves() {
-    let rows = recording("illuminants/d65.csv");
+/// A DNG of the chart under a light, without gaps, whose corners are [`CORNERS`].
+fn photograph(name: &str, light: &str, tags: &[dng::Tag]) -> String {
+    let rows = recording(light);
     let at = |index: usize| {
         let (x, y) = (index % 240 / 40, index / 240 / 40);
         rows[y * 6 + x].1.map(|value| value as u16)
     };
     let samples: Vec<u8> = (0..240 * 160).flat_map(at).flat_map(u16::to_le_bytes).collect();
-    let tags = [dng::text(271, "NIKON CORPORATION"), dng::text(272, "NIKON D700")];
-    let bytes = dng::Dng::linear(240, 160, 16, samples).with(&tags).bytes();
-    let picture = file("recover_camera.dng", "");
-    std::fs::write(&picture, bytes).unwrap();
-    let written = file("recover_camera.csv", "").display().to_string();
-    let named = ["--illuminant", "D65", "--corners", "0,0", "240,0", "240,160", "0,160", "--out", &written, "--force"];
-    let (out, error, done) = recover(&[&[picture.to_str().unwrap()], &named[..]].concat());
-    assert!(done, "{out} {error}");
-    assert!(stated(&written).contains("NIKON D700"));
+    let picture = file(name, "");
+    std::fs::write(&picture, dng::Dng::linear(240, 160, 16, samples).with(tags).bytes()).unwrap();
+    picture.display().to_string()
+}
+
+const CORNERS: [&str; 5] = ["--corners", "0,0", "240,0", "240,160", "0,160"];
+
+#[test]
+fn the_camera_of_a_dng_names_the_curves() {
+    let tags = [dng::text(271, "NIKON CORPORATION"), dng::text(272, "NIKON D700"), dng::text(50708, "Nikon D700 X")];
+    let picture = photograph("recover_camera.dng", "illuminants/d65.csv", &tags);
+    let [written, profile] =
+        ["recover_camera.csv", "recover_camera.dcp"].map(|name| file(name, "").display().to_string());
+    let named = ["--illuminant", "D65", "--out", &written, "--profile", &profile, "--force"];
+    let (out, error, done) = recover(&[&[picture.as_str(), "--title", "My own"], &CORNERS[..], &named].concat());
+    assert!(done && !error.contains("--model"), "{out} {error}");
+    assert!(stated(&written).contains("My own"));
+    // By which raw developers offer the profile, and the same for one that is made of the curves.
+    let has_model = |bytes: &[u8]| bytes.windows(13).any(|at| at == b"Nikon D700 X\0");
+    assert!(has_model(&std::fs::read(&profile).unwrap()));
+    let matrix = run(&["matrix", &written, "--illuminant", "D65", "--format", "dng"]);
+    assert!(matrix.stdout.starts_with(b"UniqueCameraModel: Nikon D700 X\n"), "{matrix:?}");
+    let (_, _, done) = recover(&[&[picture.as_str(), "--model", "Other"], &CORNERS[..], &named].concat());
+    assert!(done && !has_model(&std::fs::read(&profile).unwrap()));
+    let table = table("recover_no_model.csv", "illuminants/d65.csv");
+    let (_, error, done) = recover(&[&[table.as_str(), "--chart", CHART], &named[..]].concat());
+    assert!(
+        done && error.contains("\"Recovered camera\", by the camera's name") && error.contains("--model"),
+        "{error}"
+    );
+}
+
+#[test]
+fn pictures_of_two_models_are_not_mixed() {
+    let one = photograph("recover_one.dng", "illuminants/d65.csv", &[dng::text(50708, "One")]);
+    let other = photograph("recover_other.dng", "illuminants/a.csv", &[dng::text(50708, "Other")]);
+    let named = [&[one.as_str(), &other, "--illuminant", "D65", "--illuminant", "A"], &CORNERS[..]].concat();
+    let (_, error, done) = recover(&named);
+    assert!(!done && error.contains("of the model \"One\"") && error.contains("recover_other.dng from a \"Other\""));
+    assert!(error.contains("name its model with --model"), "{error}");
+    assert!(recover(&[&named[..], &["--model", "One"]].concat()).2);
 }
 
 #[test]

@@ -25,6 +25,8 @@ pub struct Header {
     pub title: String,
     /// A short gloss shown after the name.
     pub also: Option<String>,
+    /// Words by which it is searched, beside name and gloss.
+    pub found_by: Option<String>,
     /// A shorter name, for narrow places.
     pub short: Option<String>,
     /// Quantity of the figures.
@@ -164,6 +166,7 @@ fn read_header(text: &str) -> Result<(Header, usize), DatasetError> {
         match key.trim() {
             "title" => header.title = value,
             "also" => header.also = Some(value),
+            "found by" => header.found_by = Some(value),
             "short" => header.short = Some(value),
             "quantity" => header.quantity = value,
             "unit" => header.unit = value,

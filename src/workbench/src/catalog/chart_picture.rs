@@ -11,6 +11,7 @@ use chromascope_core::query::Ask as _;
 use chromascope_figure::Image;
 use image::codecs::png::PngDecoder;
 use image::{DynamicImage, ImageDecoder as _, ImageFormat, ImageReader, Limits};
+pub use raw_image::CONVERTERS;
 use raw_image::{RawImage, RawImageError};
 
 use super::Catalog;
@@ -65,7 +66,7 @@ pub enum ChartPictureError {
     #[error("the picture is {0}; save it as linear 16-bit RGB, without a tone curve")]
     Depth(&'static str),
     #[error(
-        "a developed picture such as a JPEG: its tone curve hides the raw values. Photograph raw and convert to DNG with Adobe DNG Converter or dnglab, both free of charge"
+        "a developed picture such as a JPEG: its tone curve hides the raw values. Photograph raw and convert to DNG with {CONVERTERS}, both free of charge"
     )]
     Developed,
     #[error(transparent)]
@@ -135,6 +136,12 @@ impl ChartPicture {
             Pixels::Picture(picture) => [picture.width() as usize, picture.height() as usize],
             Pixels::Raw(raw) => raw.size(),
         }
+    }
+
+    /// Camera model by which raw converters offer a profile (DNG's `UniqueCameraModel`), where the file states one.
+    pub fn model(&self) -> Option<String> {
+        let Pixels::Raw(raw) = &self.0 else { return None };
+        raw.metadata().unique_camera_model.clone().or_else(|| self.camera())
     }
 
     /// Maker and model of the camera, where the file states them.

@@ -9,6 +9,8 @@ use spectral_file::{COVARIANCE, Certainty, Effect, METADATA, ReadError, Role, So
 use crate::document::imported::{Fingerprint, ImportOverrides, ImportedCurve, ImportedSet, ReadAs};
 use crate::hosted;
 
+/// Key under which a file states the model of its camera as raw files call it.
+pub const UNIQUE_CAMERA_MODEL: &str = "unique_camera_model";
 /// Default maximum number of curves taken from a file.
 pub const TAKEN_AT_FIRST: usize = 200;
 
@@ -168,6 +170,7 @@ fn own_set(origin: &Origin, table: &SpectralFile, overrides: &ImportOverrides, t
         file: origin.name.clone(),
         path: origin.path.clone(),
         measured: None,
+        model: table.reading.comment(UNIQUE_CAMERA_MODEL).map(str::to_owned),
         fingerprint: Some(origin.fingerprint),
         overrides: overrides.clone(),
         role: table.role.value,

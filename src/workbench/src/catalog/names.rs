@@ -233,7 +233,7 @@ pub fn find<'a>(
         let words = words(text);
         telling.iter().all(|word| words.contains(word))
     };
-    let glossed = |e: &Entry| format!("{} {} {}", e.name, e.short, e.also.as_deref().unwrap_or_default());
+    let glossed = |e: &Entry| format!("{} {}", e.name, e.synonyms());
     let having = |test: &dyn Fn(&Entry) -> bool| entries.iter().copied().filter(|e| test(e)).collect::<Vec<_>>();
     let whole_words: [&dyn Fn(&Entry) -> bool; 2] = [&|e| all_in(&e.name), &|e| all_in(&glossed(e))];
     for test in whole_words {

@@ -75,6 +75,9 @@ pub struct ImportedSet {
     /// [`Measurement::origin`](super::measurement::Measurement::origin) of a camera that was recovered from pictures here.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub measured: Option<Fingerprint>,
+    /// Model of the camera as raw files state it, where that is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub model: Option<String>,
     #[serde(default, rename = "wishes")]
     pub overrides: ImportOverrides,
     pub role: Role,
@@ -200,6 +203,7 @@ impl ImportedSet {
             path: self.path.clone(),
             fingerprint: self.fingerprint,
             measured: self.measured,
+            model: self.model.clone(),
             overrides: self.overrides.clone(),
             role: self.role,
             read_as: self.read_as,

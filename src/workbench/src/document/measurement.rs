@@ -25,6 +25,9 @@ pub struct Measurement {
     /// Raw value from which on a mean of a band is saturated; none until it is named.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clip: Option<f64>,
+    /// True if shots whose files state several models are of one camera by the user's word.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub is_one_camera: bool,
 }
 
 impl Measurement {
@@ -38,10 +41,28 @@ impl Measurement {
         self.shots.first().map(of_shot).or_else(|| self.passes.first().map(|pass| pass.contents))
     }
 
+    /// Camera model of profile files, as the first file states it that states one.
+    pub fn model(&self) -> Option<&str> {
+        self.shots.iter().find_map(|shot| shot.model.as_deref())
+    }
+
+    /// Sentence about files that state different models: nothing is made of them unless they are of one camera by the user's word.
+    pub fn mixed(&self) -> Option<String> {
+        let stated = self.shots.iter().filter_map(|shot| Some((shot.file.as_str(), shot.model.as_deref()?)));
+        mixed_models(stated).filter(|_| !self.is_one_camera)
+    }
+
     /// Place of a picture's shot.
     pub fn place(&self, contents: Fingerprint, name: &str) -> Option<usize> {
         self.shots.iter().position(|shot| shot.is_of(contents, name))
     }
+}
+
+/// Sentence about files that state different camera models, if they do.
+pub fn mixed_models<'a>(mut stated: impl Iterator<Item = (&'a str, &'a str)>) -> Option<String> {
+    let (first, model) = stated.next()?;
+    let (file, other) = stated.find(|(_, other)| *other != model)?;
+    Some(format!("{first} is from a camera of the model \"{model}\", {file} from a \"{other}\""))
 }
 
 /// One picture of a chart.
@@ -52,6 +73,9 @@ pub struct MeasuredShot {
     /// By which the picture is known wherever it is.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contents: Option<Fingerprint>,
+    /// Camera model by which raw converters offer profiles, where the file states it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub model: Option<String>,
     pub chart: String,
     /// The light; none until it is chosen.
     pub light: Option<Light>,

@@ -13,6 +13,7 @@ use crate::document::imported::{
 use crate::document::measurement::Measurement;
 use crate::export::profile::shot;
 use crate::format::fixed;
+use crate::scene::measurement::RELATIVE;
 use crate::scene::recorded::CHANNELS;
 
 /// How the curves were made of a chart.
@@ -127,8 +128,10 @@ pub const COLUMNS: &str = "ΔE*00, mean and largest over the patches. Predicted:
 pub const UNCERTAINTY: &str = "± is expanded (k = 2): the value is within it in about 95 of 100 cases. In Rank the ± of a metric is that of these \
     curves, and a rank is a range where cameras do not differ at 95 %.";
 /// Description of [`matrix`].
-pub const MATRIX: &str = "from raw RGB balanced to white = 1 to XYZ, fitted to the recorded patches. ICC (adapted to D50) and CLF (to ACES) are made of the first light's; in the DCP \
+pub const MATRIX: &str = "from raw RGB balanced to white = 1 to XYZ, fitted to the recorded patches. ICC (adapted to D50) and CLF (to ACES) are made of it; in the DCP \
     it is the ForwardMatrix (adapted to D50), and with the balance the ColorMatrix";
+/// Tables that are named as the nearest.
+const NEAREST: usize = 5;
 /// Distances above which a camera is very unlike the library's: from their mean in standard deviations, and from the nearest table.
 const UNLIKE: [f64; 2] = [1.2, 0.2];
 /// Temperature in kelvins below which there is no daylight; doubtful from one standard deviation above it.
@@ -141,14 +144,19 @@ pub fn conditions(measured: &ChartMeasurement) -> Vec<String> {
     let recovery = &measured.recovery;
     let glare = recovery.glare.map(|glare| fixed(100.0 * glare, 2)).join(", ");
     let [ratio, unlikeness] = [recovery.noise_ratio, recovery.unlikeness].map(|value| fixed(value, 2));
+    let squares: Vec<f64> = recovery.residuals.iter().flatten().flatten().flatten().map(|r| r * r).collect();
+    let residual = fixed(100.0 * (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt(), 2);
     let uneven = fixed(100.0 * recovery.unevenness, 1);
     let widened = "; its bands are widened by that factor, and may still be too narrow";
     let [what, widened] = if recovery.unlikeness > 1.0 { ["unlike", widened] } else { ["like", ""] };
     let mut lines = vec![
         format!("Chart: {}", measured.charts.join(", ")),
         format!(
-            "Residuals are {ratio} times the noise; glare {glare} % of the brightest patch; brightness varies by {uneven} %"
+            "Residuals: {residual} % (root mean square), {ratio} times the noise that is assumed: {} % of a value, unless \
+             stated, and that of the pixels",
+            fixed(100.0 * RELATIVE, 1)
         ),
+        format!("Glare {glare} % of the brightest patch (red, green, blue); brightness varies by {uneven} %"),
         format!(
             "The camera is {what} those of the library: distance {unlikeness}, where 1 is expected at most{widened}"
         ),
@@ -157,6 +165,8 @@ pub fn conditions(measured: &ChartMeasurement) -> Vec<String> {
         format!("\"{chart}\" fits clearly better than the chart that was named: choose it if it is that edition")
     };
     lines.extend(measured.better_chart.as_ref().map(better));
+    let near: Vec<String> = nearest(measured).take(NEAREST).collect();
+    lines.push(format!("Nearest tables by the difference of the curves: {}", near.join(", ")));
     lines.extend(measured.daylight.map(|[kelvin, deviation]| {
         format!("Daylight of {} K ± {} K (k = 2)", fixed(kelvin, 0), fixed(2.0 * deviation, 0))
     }));
@@ -167,7 +177,7 @@ pub fn conditions(measured: &ChartMeasurement) -> Vec<String> {
         && is_daylight(light)
     {
         lines.push(format!(
-            "One shot hardly tells {light} from another daylight: name daylight of unknown temperature unless it was measured, or add a shot under a lamp"
+            "{light} alone is hardly told from another daylight: name daylight of unknown temperature unless it was measured, or add a shot under a lamp"
         ));
     }
     lines
@@ -210,12 +220,25 @@ pub fn matrix(profile: &ShotProfile) -> Option<String> {
     shot::matrix(profile).map(|matrix| [0, 1, 2].map(|at| row(matrix.row(at))).join("\n"))
 }
 
-/// ΔE\*00 of patches that were predicted from all others, in a sentence.
-pub fn left_out(measured: &ChartMeasurement) -> Option<String> {
+/// The result in a line: ΔE\*00 of the patches of the first picture, each predicted from all others; width of the bands; nearest table.
+pub fn headline(measured: &ChartMeasurement, picture: &str) -> Option<String> {
     let errors: Vec<Option<f64>> = measured.left_out.iter().map(|(_, error)| *error).collect();
     let found = ErrorSummary::new(&errors)?;
     let (mean, most, worst) = (fixed(found.mean, 2), fixed(found.max, 2), &measured.left_out[found.worst].0);
-    Some(format!("Patches recovered without, recorded against predicted: ΔE*00 mean {mean}, largest {most} ({worst})"))
+    let (nm, standard) = (&measured.recovery.curves.wavelengths_nm, measured.recovery.curves.standard());
+    let pairs = standard.iter().flat_map(|of| of.iter().zip(nm));
+    let visible: Vec<f64> = pairs.filter(|(_, nm)| (400.0..=700.0).contains(*nm)).map(|(sd, _)| *sd).collect();
+    let band = fixed(200.0 * visible.iter().sum::<f64>() / visible.len().max(1) as f64, 1);
+    Some(format!(
+        "Each patch of {picture} by the curves of all others: ΔE*00 {mean}, largest {most} ({worst}). Curves ±{band} % of the peak (2 sd, \
+         mean of 400–700 nm). Nearest: {}.",
+        nearest(measured).next()?
+    ))
+}
+
+/// Tables that are nearest to the curves, with the root mean square of the difference.
+fn nearest(measured: &ChartMeasurement) -> impl Iterator<Item = String> {
+    measured.nearest.iter().map(|(name, distance)| format!("{name} ({} %)", fixed(100.0 * distance, 1)))
 }
 
 /// ΔE\*00 of the corrections under a light: mean and largest.
@@ -270,6 +293,7 @@ fn set(measurement: &Measurement, curves: &RecoveredCurves, [from, under]: [&str
         path: None,
         fingerprint: None,
         measured: measurement.origin(),
+        model: measurement.model().map(str::to_owned),
         overrides: ImportOverrides::default(),
         role: Role::Camera,
         read_as: ReadAs { unit: WavelengthUnit::Nanometer, percent: false },

@@ -23,7 +23,7 @@ use chromascope_profile::dcp::{Calibration, CalibrationIlluminant, Dcp};
 use chromascope_profile::icc::{D50, IccProfile, IccVersion};
 use chromascope_profile::{Matrix, ProfileError};
 
-pub use query::{CorrectionFileQuery, CorrectionRequest, unique_camera_model};
+pub use query::{CorrectionFileQuery, CorrectionRequest, stated_model, unique_camera_model};
 
 use crate::format::slug;
 use crate::scene::correction::exif_light;

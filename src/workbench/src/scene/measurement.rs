@@ -44,7 +44,8 @@ impl Scene<'_> {
         }
         let document = self.under(shot);
         let scene = Scene { document: &document, ..*self };
-        let recorded = scene.recorded_patches(&shot.patches, shot.grid)?;
+        let recorded = scene.recorded_patches(&shot.patches, shot.grid);
+        let recorded = recorded.map_err(|error| format!("{}: {error}", shot.file))?;
         let made = scene.chart_shot(recorded, Some(shot.grid[0]), RELATIVE, shot.is_daylight());
         let made = made.map_err(|error| format!("{}: {error}", shot.file))?;
         Ok(ChartShot { picture: shot.file.clone(), ..made })

@@ -10,23 +10,24 @@ use spectral_file::Values;
 
 use super::{UNNAMED, Written, put};
 use crate::catalog::chart_picture::is_picture;
+use crate::catalog::import::UNIQUE_CAMERA_MODEL;
 use crate::catalog::recorded::Levels;
 use crate::cli::arguments::values;
 use crate::cli::error::{CliError, Result, refused};
 use crate::cli::identify::{corner, grid, picture, recorded_table};
 use crate::cli::outputs::{check, show, stream};
 use crate::cli::request::{Request, in_file};
+use crate::document::measurement::mixed_models;
 use crate::document::start::Start;
 use crate::document::{Light, PHOTOGRAPHED_CHART};
 use crate::export::measured;
 use crate::export::profile::CorrectionForm;
 use crate::export::profile::shot::ShotCorrection;
-use crate::format::{display_path, fixed};
+use crate::format::display_path;
 use crate::results::Results;
 use crate::scene::measurement::{RELATIVE, STAND_IN_K};
 use crate::scene::{Scene, SceneError};
-
-const NEAREST: usize = 5;
+use crate::terminal::say;
 
 #[derive(Debug, Args)]
 pub(super) struct ChartArguments {
@@ -57,14 +58,15 @@ pub(super) struct ChartArguments {
     /// Standard deviation of a raw value in percent of it: noise, and what charts of one edition differ by; estimated from 0.4 to 2 times this
     #[arg(long, value_name = "PERCENT", default_value_t = 100.0 * RELATIVE, value_parser = percent)]
     noise: f64,
-    /// Profile by the matrix that is fitted to the recorded patches, .dcp (of one light or two), .icc or .clf
+    /// Profile by the matrix that is fitted to the recorded patches, .dcp (of one light or two), .icc or .clf (of the first light)
     #[arg(long, value_name = "FILE")]
     profile: Option<PathBuf>,
     /// Writes --out and --profile though a warning says that light or chart are likely others
     #[arg(long)]
     accept_warnings: bool,
-    /// For dcp: the camera model as its raw files state it [default: by the table of names from --title]
-    #[arg(long, value_name = "MODEL", requires = "profile")]
+    /// The camera model as its raw files state it, for dcp, and where the files state several of one camera [default: that of a DNG, else by
+    /// the table of names from --title]
+    #[arg(long, value_name = "MODEL")]
     model: Option<String>,
     #[command(flatten)]
     written: Written,
@@ -85,7 +87,7 @@ pub(super) fn run(arguments: &ChartArguments) -> Result<()> {
     }
     let (written, form) = (&arguments.written, profile_form(arguments)?);
     written.format()?;
-    let (shots, of_file) = shots(&mut request, arguments)?;
+    let (shots, [of_file, stated]) = shots(&mut request, arguments)?;
     let camera = written.title.clone().or(of_file).unwrap_or_else(|| UNNAMED.to_owned());
     let outputs = written.out.as_deref().into_iter().chain(arguments.profile.as_deref());
     check(outputs, &request.inputs(), written.force)?;
@@ -97,7 +99,7 @@ pub(super) fn run(arguments: &ChartArguments) -> Result<()> {
         SceneError::Recovery(error) => CliError::File(format!("{}: {error}", files.join(", "))),
         other => other.into(),
     })?;
-    show(&text(&found))?;
+    show(&text(&found, &files[0]))?;
     let is_refused = !arguments.accept_warnings && (written.out.is_some() || form.is_some());
     if let Some(doubt) = measured::doubts(&found).first().filter(|_| is_refused) {
         let why = format!("{doubt}. Nothing was written; with --accept-warnings it is");
@@ -106,19 +108,20 @@ pub(super) fn run(arguments: &ChartArguments) -> Result<()> {
     let lights: Vec<&str> = found.profiles.iter().map(|(light, _)| light.as_str()).collect();
     let (count, charts) = (found.shots[0].patches.len(), found.charts.join(", "));
     let method = format!("raw values of {count} patches of {charts} under {}", lights.join(", "));
-    put(
-        &camera,
-        &found.recovery.curves,
-        written,
-        &written.provenance(&files.join(", "), &method, measured::REDUCTION),
-    )?;
+    let model = arguments.model.as_ref().or(stated.as_ref());
+    let mut comments = written.provenance(&files.join(", "), &method, measured::REDUCTION);
+    comments.extend(model.map(|model| (UNIQUE_CAMERA_MODEL.to_owned(), model.clone())));
+    put(&camera, &found.recovery.curves, written, &comments)?;
     let (Some(path), Some(form)) = (&arguments.profile, form) else { return Ok(()) };
     let license = written.license.as_deref().unwrap_or("the user's own");
     let author = written.author.as_ref().map_or_else(String::new, |author| format!(" by {author}"));
     let terms = format!("Fitted to a photograph of a chart{author}; license: {license}");
-    let (model, profiles) = (arguments.model.as_deref(), found.profiles.as_slice());
+    let (model, profiles) = (model.map(String::as_str), found.profiles.as_slice());
     let correction = ShotCorrection { camera: &camera, model, terms: &terms, profiles };
-    let bytes = correction.written(form)?;
+    let bytes = correction.written((form, 0))?;
+    if form == CorrectionForm::Dcp && model.is_none() {
+        say(&format!("chromascope: {} Name it with --model.\n", correction.model_in_words()));
+    }
     stream(Some(path), |out| Ok(out.write_all(&bytes)?))
 }
 
@@ -132,10 +135,10 @@ fn profile_form(arguments: &ChartArguments) -> Result<Option<CorrectionForm>> {
     }
 }
 
-/// The recording of each table under its light, and the camera that a picture states.
-fn shots(request: &mut Request, arguments: &ChartArguments) -> Result<(Vec<ChartShot>, Option<String>)> {
+/// The recording of each table under its light, and camera and model that pictures state.
+fn shots(request: &mut Request, arguments: &ChartArguments) -> Result<(Vec<ChartShot>, [Option<String>; 2])> {
     let levels = Levels { black: arguments.black, clip: arguments.clip.unwrap_or(f64::INFINITY) };
-    let (mut shots, mut camera) = (Vec::new(), None);
+    let (mut shots, mut camera, mut models) = (Vec::new(), None, Vec::new());
     for (at, file) in arguments.files.iter().enumerate() {
         let light = &arguments.illuminant[at.min(arguments.illuminant.len() - 1)];
         let is_daylight = light == "daylight";
@@ -154,6 +157,7 @@ fn shots(request: &mut Request, arguments: &ChartArguments) -> Result<(Vec<Chart
         let recorded = match photo {
             Some((photo, corners)) => {
                 camera = camera.or_else(|| photo.camera());
+                models.extend(photo.model().map(|model| (display_path(file), model)));
                 let patches = photo.patches(corners, arguments.grid).map_err(|error| in_file(file, error))?;
                 scene.recorded_patches(&patches, arguments.grid).map_err(|error| in_file(file, error))?
             }
@@ -166,10 +170,15 @@ fn shots(request: &mut Request, arguments: &ChartArguments) -> Result<(Vec<Chart
         }
         shots.push(shot);
     }
-    Ok((shots, camera))
+    let stated = models.iter().map(|(file, model)| (file.as_str(), model.as_str()));
+    if let Some(mixed) = mixed_models(stated).filter(|_| arguments.model.is_none()) {
+        let remedy = "recover each camera by itself, or, if it is one camera, name its model with --model";
+        return Err(CliError::File(format!("{mixed}; {remedy}")));
+    }
+    Ok((shots, [camera, models.into_iter().next().map(|(_, model)| model)]))
 }
 
-fn text(of: &ChartMeasurement) -> String {
+fn text(of: &ChartMeasurement, picture: &str) -> String {
     let mut text = measured::curves(&of.recovery).to_text();
     text += measured::UNCERTAINTY;
     text +=
@@ -181,11 +190,7 @@ fn text(of: &ChartMeasurement) -> String {
     text += "\n";
     let doubts = measured::doubts(of).into_iter().map(|doubt| format!("Warning: {doubt}"));
     text.extend(measured::conditions(of).into_iter().chain(doubts).map(|line| line + "\n"));
-    text += "Nearest tables of the library, root mean square of the difference relative to the curves:\n";
-    for (name, distance) in of.nearest.iter().take(NEAREST) {
-        let _ = writeln!(text, "  {} %  {name}", fixed(100.0 * distance, 1));
-    }
-    text.extend(measured::left_out(of).map(|line| line + "\n"));
+    text.extend(measured::headline(of, picture).map(|line| line + "\n"));
     for (light, profile) in &of.profiles {
         let table = measured::corrections(profile).to_text();
         let matrix = measured::matrix(profile).unwrap_or_default();

@@ -13,6 +13,7 @@ use super::CorrectionFile;
 use crate::catalog::Entry;
 use crate::catalog::names::model_of;
 use crate::document::SetKind;
+use crate::document::imported::Role;
 use crate::scene::correction::ChannelRatioQuery;
 use crate::scene::{Scene, SceneError};
 
@@ -20,7 +21,7 @@ use crate::scene::{Scene, SceneError};
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CorrectionRequest<'a> {
     pub camera: &'a str,
-    /// Camera model as raw files call it; by [`unique_camera_model`] where none is given.
+    /// Camera model as raw files call it; by [`stated_model`] where none is given.
     pub model: Option<&'a str>,
     /// Camera RGB of a neutral under the light on the scene, in place of the table's own.
     pub neutral: Option<Neutral>,
@@ -57,7 +58,7 @@ impl CorrectionFileQuery {
         let kind = SetKind::Camera;
         Ok(Self {
             camera: camera.to_owned(),
-            model: model.map_or_else(|| unique_camera_model(camera), str::to_owned),
+            model: model.map_or_else(|| stated_model(scene, camera), str::to_owned),
             correction: choice.describe(scene.fit_target()),
             lights: std::iter::once(scene.light_name())
                 .chain(choice.second_light.clone().map(|light| scene.with_filters(light)))
@@ -93,6 +94,12 @@ impl Query for CorrectionFileQuery {
 
 /// Names of the library and `UniqueCameraModel` of raw files, as rows of a data file.
 const MODELS: &str = "models/unique_camera_model.csv";
+
+/// Camera model as the user's table states it, else by [`unique_camera_model`].
+pub fn stated_model(scene: &Scene<'_>, camera: &str) -> String {
+    let own = scene.document.own.iter().find(|set| set.name == camera && set.role == Role::Camera);
+    own.and_then(|set| set.model.clone()).unwrap_or_else(|| unique_camera_model(camera))
+}
 
 /// Camera model as its raw files state it (DNG's `UniqueCameraModel`), by which raw developers offer a profile: that of the table of
 /// names, else the camera's name without the parenthesis that distinguishes tables of one model.

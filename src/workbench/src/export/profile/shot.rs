@@ -27,14 +27,31 @@ impl ShotCorrection<'_> {
     pub const FORMS: [CorrectionForm; 3] =
         [CorrectionForm::Dcp, CorrectionForm::Icc(IccVersion::V4), CorrectionForm::Clf];
 
-    /// DCP of all lights; ICC and CLF of the first.
-    pub fn written(&self, form: CorrectionForm) -> Result<Vec<u8>, CorrectionFileError> {
+    /// The files that can be written: a DCP of all lights, and of each light, by its number, ICC and CLF.
+    pub fn files(&self) -> impl Iterator<Item = (CorrectionForm, usize)> {
+        let of_light = (0..self.profiles.len()).flat_map(|at| Self::FORMS[1..].iter().map(move |form| (*form, at)));
+        std::iter::once((CorrectionForm::Dcp, 0)).chain(of_light)
+    }
+
+    /// Camera model that a DCP is for, in a sentence.
+    pub fn model_in_words(&self) -> String {
+        let why = "no picture states it, and if theirs is another, raw converters do not offer it";
+        let why = self.model.map_or(format!("by the camera's name: {why}"), |_| "as the picture states it".to_owned());
+        format!("The DCP is for raw files of the model \"{}\", {why}.", self.dcp_model())
+    }
+
+    fn dcp_model(&self) -> String {
+        self.model.map_or_else(|| unique_camera_model(self.camera), str::to_owned)
+    }
+
+    /// DCP of all lights; ICC and CLF of the one of this number.
+    pub fn written(&self, (form, light): (CorrectionForm, usize)) -> Result<Vec<u8>, CorrectionFileError> {
         let name = match form {
             CorrectionForm::Dcp => return self.dcp(),
             CorrectionForm::Icc(_) => "ICC",
             _ => "CLF",
         };
-        let (light, profile) = self.profiles.first().ok_or(CorrectionFileError::NoMatrix(name))?;
+        let (light, profile) = self.profiles.get(light).ok_or(CorrectionFileError::NoMatrix(name))?;
         let matrix = matrix(profile).ok_or(CorrectionFileError::NoMatrix(name))?;
         if let CorrectionForm::Icc(version) = form {
             let icc = ProfileMatrix::new(matrix, profile.white, Xyz::from_vector(DVec3::from_array(D50)));
@@ -67,7 +84,7 @@ impl ShotCorrection<'_> {
         };
         let calibrations: Option<Vec<_>> = lights.iter().map(calibration).collect();
         let dcp = Dcp {
-            camera: self.model.map_or_else(|| unique_camera_model(self.camera), str::to_owned),
+            camera: self.dcp_model(),
             name: self.name(),
             copyright: self.terms.to_owned(),
             calibrations: calibrations.ok_or(CorrectionFileError::NoMatrix("DCP"))?,
