@@ -85,11 +85,10 @@ fn shots_of_two_models_are_one_camera_only_by_the_users_word() {
     };
     assert!(kept(&window));
     click(&mut window, "They are one camera");
-    until(&mut window, UPDATE);
+    until(&mut window, "in the library has the curves of before");
     // The button is drawn before the answer is taken in.
     window.run_steps(3);
     assert!(!kept(&window));
-    assert!(has(&window, "in the library has the curves of before"));
     // Of two lights each has its own files.
     for label in ["DCP…", "ICC v4 under D65…", "ACES CLF under D65…", "ICC v4 under A…", "ACES CLF under A…"]
     {
