@@ -55,8 +55,8 @@ fn the_strip_says_what_is_visible_and_where_minima_are() {
             let scale = (a[0] * b[1] - a[1] * b[0]).abs().sqrt();
             let expected = if diagram == Diagram::Xy { 0.0013 / scale } else { 0.0013 };
             let points = line(visible).expect("a line");
-            let near =
-                points.iter().min_by(|p, q| (p[0] - 350.1).abs().total_cmp(&(q[0] - 350.1).abs())).expect("points");
+            let off = |p: &[f64; 2]| (strip::kelvin(p[0]) - 2856.0).abs();
+            let near = points.iter().min_by(|p, q| off(p).total_cmp(&off(q))).expect("points");
             assert!((near[1].powi(2) / expected - 1.0).abs() < 0.02, "{near:?} {expected}");
             assert!(texts(&panel).contains(&"just visible"));
             assert!(
