@@ -102,7 +102,8 @@ pub(super) fn others(ui: &mut Ui, context: &mut PaneContext<'_>) {
 fn discard(path: &Path, context: &mut PaneContext<'_>) {
     context.states.of::<State>().taken.take_if(|taken| taken == path);
     let recorded = &mut context.view.recorded;
-    (recorded.photos.remove(path), recorded.failed.remove(path));
+    recorded.photos.remove(path);
+    recorded.failed.remove(path);
     if recorded.photo.as_deref() == Some(path) {
         recorded.photo = recorded.photos.keys().next().cloned();
         next(context);
