@@ -49,7 +49,9 @@ fn has(window: &Window, words: &str) -> bool {
     window.query_all_by_label_contains(words).next().is_some()
 }
 
+/// Once the page around it has its place: what it says of an empty page comes a frame after a picture that failed.
 fn click(window: &mut Window, words: &str) {
+    window.run_steps(2);
     window.get_by_label(words).click();
     window.run_steps(3);
 }

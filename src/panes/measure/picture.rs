@@ -40,6 +40,7 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
             // Others that are not measured yet go on without it.
             discard(&path, context);
             context.view.recorded.failed.insert(path, why);
+            ui.ctx().request_repaint();
             return;
         }
     };

@@ -147,10 +147,8 @@ fn warn(ui: &mut Ui, doubts: &[String], context: &mut PaneContext<'_>) {
 /// The result in one line, with a link to what is below.
 fn headline(ui: &mut Ui, measured: &ChartMeasurement, context: &mut PaneContext<'_>) {
     let first = context.scene.document.measurement.shots.first().map_or("", |shot| shot.file.as_str());
-    ui.horizontal_wrapped(|ui| {
-        ui.add(Label::new(RichText::new(measured::headline(measured, first).unwrap_or_default()).strong()).wrap());
-        context.states.of::<State>().is_led |= ui.link("Curves, profile and patches").clicked();
-    });
+    ui.add(Label::new(RichText::new(measured::headline(measured, first).unwrap_or_default()).strong()).wrap());
+    context.states.of::<State>().is_led |= ui.button("Curves, profile and patches").clicked();
 }
 
 /// The camera of this measurement in the library; true with other curves than these.
