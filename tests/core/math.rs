@@ -2,6 +2,7 @@
 //! as exact.
 
 use chromascope_math::cbrt::cbrt;
+use chromascope_math::dense::{Cholesky, bounded_minimum};
 use chromascope_math::dot::{dot, dot_each};
 use chromascope_math::exp::exp;
 use chromascope_math::gauss::{Rule, gauss_rule, interpolatory_rule};
@@ -277,4 +278,34 @@ fn cube_roots_are_the_standard_library_s() {
     // From 1e-300 to 1e300.
     let worst = (-99_000..=99_000).map(off).fold(0.0, f64::max);
     assert!(worst < 5e-16, "{worst:e}");
+}
+
+#[test]
+fn dense_systems_agree_with_their_inverse_and_their_bounds() {
+    const SIZE: usize = 9;
+    let at = |i: usize, j: usize| if i == j { 3.0 + i as f64 } else { 1.0 / (1.0 + (i as f64 - j as f64).abs()) };
+    let matrix: Vec<f64> = (0..SIZE * SIZE).map(|index| at(index / SIZE, index % SIZE)).collect();
+    let factor = Cholesky::new(matrix.clone(), SIZE).unwrap();
+    let inverse = factor.inverse();
+    let product = |i: usize, j: usize| (0..SIZE).map(|k| matrix[i * SIZE + k] * inverse[k * SIZE + j]).sum::<f64>();
+    assert!((0..SIZE * SIZE).all(|n| (product(n / SIZE, n % SIZE) - f64::from(n / SIZE == n % SIZE)).abs() < 1e-14));
+    // The last unknowns alone: products of the half-solved unit vectors.
+    for first in [0, 4, 8] {
+        let count = SIZE - first;
+        let unit: Vec<f64> = (0..count * count).map(|n| f64::from(u8::from(n / count == n % count))).collect();
+        let half = factor.half_solve(first, unit);
+        for (i, j) in (0..count).flat_map(|i| (0..count).map(move |j| (i, j))) {
+            let dot: f64 = (0..count).map(|k| half[k * count + i] * half[k * count + j]).sum();
+            assert!((dot - inverse[(first + i) * SIZE + first + j]).abs() < 1e-15, "{first} {i} {j}");
+        }
+    }
+    // Wherever the search begins, the minimum is the same.
+    let pull: Vec<f64> = (0..SIZE).map(|i| if i % 2 == 0 { 2.0 } else { -1.5 }).collect();
+    let bounds = [[0.0, 0.4]; SIZE];
+    let found = bounded_minimum(&matrix, &pull, &bounds, None).unwrap();
+    assert!(found.contains(&0.0) && found.contains(&0.4) && found.iter().any(|x| *x > 0.0 && *x < 0.4), "{found:?}");
+    for near in [[0.0; SIZE], [0.4; SIZE], [0.2; SIZE]] {
+        let other = bounded_minimum(&matrix, &pull, &bounds, Some(&near)).unwrap();
+        assert!(found.iter().zip(&other).all(|(a, b)| (a - b).abs() < 1e-15), "{other:?}");
+    }
 }

@@ -49,14 +49,7 @@ impl Cholesky {
         if width == 0 {
             return right;
         }
-        for k in 0..self.size {
-            let (done, own) = right.split_at_mut(k * width);
-            let own = &mut own[..width];
-            subtract_all(done.chunks(width).enumerate().map(|(j, of)| (self.row(j)[k], of)), own);
-            for value in own {
-                *value /= self.row(k)[k];
-            }
-        }
+        self.forward(0, &mut right);
         for k in (0..self.size).rev() {
             let (own, done) = right.split_at_mut((k + 1) * width);
             let (row, own) = (self.row(k), &mut own[k * width..]);
@@ -66,6 +59,25 @@ impl Cholesky {
             }
         }
         right
+    }
+
+    /// `U⁻ᵀ B` from the first row on of which B has anything: products of its columns are those of B with `A⁻¹`. B is those rows alone.
+    #[must_use]
+    pub fn half_solve(&self, first: usize, mut right: Vec<f64>) -> Vec<f64> {
+        self.forward(first, &mut right);
+        right
+    }
+
+    fn forward(&self, first: usize, right: &mut [f64]) {
+        let width = right.len() / self.size.saturating_sub(first).max(1);
+        for k in first..self.size {
+            let (done, own) = right.split_at_mut((k - first) * width);
+            let own = &mut own[..width];
+            subtract_all(done.chunks(width.max(1)).zip(first..).map(|(of, j)| (self.row(j)[k], of)), own);
+            for value in own {
+                *value /= self.row(k)[k];
+            }
+        }
     }
 
     /// `A⁻¹`.
@@ -116,14 +128,17 @@ pub fn among(matrix: &[f64], size: usize, rows: &[usize], columns: &[usize]) -> 
 }
 
 /// The x between bounds that minimizes `½ xᵀ A x − gᵀ x`, by an active set that exchanges all violators at once
-/// (Júdice and Pires 1994), and only the last of them where that does not settle.
+/// (Júdice and Pires 1994), and only the last of them where that does not settle. The search begins with those held that are at a bound
+/// in `near`, a point nearby, if any.
 ///
 /// None unless A is positive definite, or after 200 exchanges.
-pub fn bounded_minimum(a: &[f64], g: &[f64], bounds: &[[f64; 2]]) -> Option<Vec<f64>> {
+pub fn bounded_minimum(a: &[f64], g: &[f64], bounds: &[[f64; 2]], near: Option<&[f64]>) -> Option<Vec<f64>> {
     const ALL_AT_ONCE: usize = 20;
     const MOST: usize = 200;
     let size = g.len();
-    let mut held: Vec<Option<f64>> = vec![None; size];
+    let at_bound =
+        |x: &[f64]| x.iter().zip(bounds).map(|(x, bounds)| bounds.iter().copied().find(|at| at == x)).collect();
+    let mut held: Vec<Option<f64>> = near.map_or_else(|| vec![None; size], at_bound);
     for round in 0..MOST {
         let free: Vec<usize> = (0..size).filter(|at| held[*at].is_none()).collect();
         let mut x: Vec<f64> = held.iter().map(|at| at.unwrap_or(0.0)).collect();

@@ -358,7 +358,7 @@ impl System {
         }
         let smoothing = low.exp();
         let hessian = self.hessian(smoothing);
-        let values = bounded_minimum(&hessian, &self.right, &vec![[0.0, f64::INFINITY]; size])?;
+        let values = bounded_minimum(&hessian, &self.right, &vec![[0.0, f64::INFINITY]; size], None)?;
         Some((values, Cholesky::new(hessian, size)?.inverse(), smoothing))
     }
 }

@@ -60,10 +60,26 @@ pub(super) struct Solution {
     pub(super) log_posterior: f64,
 }
 
-/// One value's modeled share and its derivatives by all unknowns that it depends on.
+/// One value's model and its derivatives.
 struct Modeled {
     value: f64,
-    slopes: Vec<(usize, f64)>,
+    /// By the samples of its channel's curve.
+    by_curve: Vec<f64>,
+    /// By other unknowns.
+    by_others: Vec<(usize, f64)>,
+    /// By the logarithm of brightness of each patch of its shot, through their mean.
+    by_each: f64,
+}
+
+/// What the values of a shot have in common with all its brightnesses, through their mean.
+#[derive(Clone)]
+struct OfMean {
+    /// Sum of weight times slope times residual.
+    right: f64,
+    /// Sum of weight times slope times the slopes by single unknowns.
+    mixed: Vec<f64>,
+    /// Sum of weight times the slope's square.
+    square: f64,
 }
 
 impl Problem {
@@ -159,15 +175,12 @@ impl Problem {
         }
         let (own, white) = (gain * bright * dot(&kernel), gain * mean * dot(&kernels.white));
         let glare = x[glare_at] * gain * mean;
-        let mut slopes = Vec::with_capacity(self.sites + 3 + self.modes);
         let by_curve = kernel.iter().zip(&kernels.white).map(|(own, white)| gain * bright * own + glare * white);
-        slopes.extend(by_curve.enumerate().map(|(i, slope)| (first + i, slope)));
         let modeled = own + x[glare_at] * white;
-        slopes.extend([(self.bright() + value.patch, own), (gain_at, modeled), (glare_at, white)]);
-        slopes.extend(shot.map(|patch| (self.bright() + patch, share * x[glare_at] * white)));
+        let mut by_others = vec![(self.bright() + value.patch, own), (gain_at, modeled), (glare_at, white)];
         let modes = kernels.modes.iter();
-        slopes.extend(modes.map(|(mode, drift)| (self.lights().start + mode, gain * bright * dot(drift))));
-        Modeled { value: modeled, slopes }
+        by_others.extend(modes.map(|(mode, drift)| (self.lights().start + mode, gain * bright * dot(drift))));
+        Modeled { value: modeled, by_curve: by_curve.collect(), by_others, by_each: share * x[glare_at] * white }
     }
 
     /// First values: the prior's mean, with the gains and brightnesses of two-way means of the logarithms.
@@ -222,19 +235,19 @@ impl Problem {
     /// Spread of ln b about the fields of the shots, by the squares over the number of brightnesses that the data determine (`MacKay` 1992).
     fn spread(&self, x: &[f64], hessian: &Cholesky, former: f64) -> f64 {
         let count = self.patches.len();
-        let mut columns = vec![0.0; x.len() * count];
-        (0..count).for_each(|i| columns[(self.bright() + i) * count + i] = 1.0);
-        let covariance = hessian.solve(columns);
+        let mut columns = vec![0.0; (x.len() - self.bright()) * count];
+        columns.iter_mut().step_by(count + 1).take(count).for_each(|one| *one = 1.0);
+        let half = hessian.half_solve(self.bright(), columns);
         let (mut squares, mut determined) = (0.0, 0.0);
         for (shot, fields) in self.shots.iter().zip(&self.fields) {
             let logs = self.logs(x, shot);
-            let at = |i: usize, j: usize| covariance[(self.bright() + i) * count + j];
-            let mut variance = shot.clone().map(|i| at(i, i)).sum::<f64>();
-            squares += logs.iter().map(|log| log * log).sum::<f64>();
+            let rows = || half.chunks(count.max(1)).map(|row| &row[shot.clone()]);
+            let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+            let mut variance = rows().map(|row| dot(row, row)).sum::<f64>();
+            squares += dot(&logs, &logs);
             for (u, _) in fields {
-                squares -= u.iter().zip(&logs).map(|(u, log)| u * log).sum::<f64>().powi(2);
-                let pairs = || shot.clone().zip(u);
-                variance -= pairs().flat_map(|(i, u)| pairs().map(move |(j, v)| u * v * at(i, j))).sum::<f64>();
+                squares -= dot(u, &logs).powi(2);
+                variance -= rows().map(|row| dot(row, u).powi(2)).sum::<f64>();
             }
             determined += (shot.len() - fields.len()) as f64 - variance / former.powi(2);
         }
@@ -267,7 +280,7 @@ impl Problem {
             self.set_evenness(&mut precision, spread);
             let (hessian, mut right) = self.normal_equations(&x, &precision, &center);
             right.iter_mut().zip(times(&hessian, &x)).for_each(|(g, hx)| *g += hx);
-            let next = bounded_minimum(&hessian, &right, &bounds)?;
+            let next = bounded_minimum(&hessian, &right, &bounds, Some(&x))?;
             let step = |range: Range<usize>| range.map(|at| (next[at] - x[at]).abs()).fold(0.0, f64::max);
             let (change, logs) = (step(0..curves), step(self.bright()..self.glare()[0]));
             // Exponentials are followed in steps in which they are nearly linear.
@@ -289,16 +302,36 @@ impl Problem {
         let mut hessian = precision.to_vec();
         let off: Vec<f64> = center.iter().zip(x).map(|(center, x)| center - x).collect();
         let mut right = times(precision, &off);
+        let mut of_means = vec![OfMean { right: 0.0, mixed: vec![0.0; size], square: 0.0 }; self.shots.len()];
         for value in &self.values {
-            let Modeled { value: modeled, slopes } = self.modeled(x, value);
-            let residual = (value.recorded - modeled) / value.deviation.powi(2);
+            let Modeled { value: modeled, by_curve, by_others, by_each } = self.modeled(x, value);
             let weight = value.deviation.powi(-2);
-            for (at, slope) in &slopes {
-                right[*at] += slope * residual;
+            let residual = (value.recorded - modeled) * weight;
+            let first = value.channel * self.sites;
+            let curve = first..first + self.sites;
+            let slopes = || curve.clone().zip(by_curve.iter().copied()).chain(by_others.iter().copied());
+            for (at, slope) in slopes() {
+                right[at] += slope * residual;
                 let row = &mut hessian[at * size..][..size];
-                for (other, by) in &slopes {
-                    row[*other] += weight * slope * by;
-                }
+                let by = weight * slope;
+                row[curve.clone()].iter_mut().zip(&by_curve).for_each(|(sum, other)| *sum += by * other);
+                by_others.iter().for_each(|(other, slope)| row[*other] += by * slope);
+            }
+            let shot = self.shots.iter().position(|shot| shot.contains(&value.patch));
+            let Some(mean) = shot.and_then(|shot| of_means.get_mut(shot)) else { continue };
+            mean.right += by_each * residual;
+            mean.square += weight * by_each * by_each;
+            slopes().for_each(|(at, slope)| mean.mixed[at] += weight * by_each * slope);
+        }
+        for (shot, mean) in self.shots.iter().zip(&of_means) {
+            for patch in shot.clone().map(|patch| self.bright() + patch) {
+                right[patch] += mean.right;
+                let row = &mut hessian[patch * size..][..size];
+                row.iter_mut().zip(&mean.mixed).for_each(|(sum, mixed)| *sum += mixed);
+                row[self.bright() + shot.start..self.bright() + shot.end]
+                    .iter_mut()
+                    .for_each(|sum| *sum += mean.square);
+                mean.mixed.iter().enumerate().for_each(|(at, mixed)| hessian[at * size + patch] += mixed);
             }
         }
         (hessian, right)
