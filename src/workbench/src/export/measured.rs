@@ -152,8 +152,8 @@ pub fn conditions(measured: &ChartMeasurement) -> Vec<String> {
     let mut lines = vec![
         format!("Chart: {}", measured.charts.join(", ")),
         format!(
-            "Residuals: {residual} % (root mean square), {ratio} times the noise that is assumed: {} % of a value, unless \
-             stated, and that of the pixels",
+            "Residuals: {residual} % (root mean square). Noise by them: {ratio} times what was assumed, {} % of a value unless stated \
+             and that of the pixels; above 2 times nothing is made of a recording",
             fixed(100.0 * RELATIVE, 1)
         ),
         format!("Glare {glare} % of the brightest patch (red, green, blue); brightness varies by {uneven} %"),
@@ -230,8 +230,8 @@ pub fn headline(measured: &ChartMeasurement, picture: &str) -> Option<String> {
     let visible: Vec<f64> = pairs.filter(|(_, nm)| (400.0..=700.0).contains(*nm)).map(|(sd, _)| *sd).collect();
     let band = fixed(200.0 * visible.iter().sum::<f64>() / visible.len().max(1) as f64, 1);
     Some(format!(
-        "Each patch of {picture} by the curves of all others: ΔE*00 {mean}, largest {most} ({worst}). Curves ±{band} % of the peak (2 sd, \
-         mean of 400–700 nm). Nearest: {}.",
+        "Each patch of {picture} by the curves of all others: ΔE*00 {mean}, largest {most} ({worst}). Curves ±{band} % of the peak (2 sd). \
+         Nearest: {}.",
         nearest(measured).next()?
     ))
 }

@@ -58,9 +58,12 @@ pub(super) struct ChartArguments {
     /// Standard deviation of a raw value in percent of it: noise, and what charts of one edition differ by; estimated from 0.4 to 2 times this
     #[arg(long, value_name = "PERCENT", default_value_t = 100.0 * RELATIVE, value_parser = percent)]
     noise: f64,
-    /// Profile by the matrix that is fitted to the recorded patches, .dcp (of one light or two), .icc or .clf (of the first light)
+    /// Profile by the matrix that is fitted to the recorded patches, .dcp (of one light or two), .icc or .clf (of one light)
     #[arg(long, value_name = "FILE")]
     profile: Option<PathBuf>,
+    /// The light of an ICC or CLF, as the tables of color corrections name it [default: the first]
+    #[arg(long, value_name = "NAME", requires = "profile")]
+    profile_light: Option<String>,
     /// Writes --out and --profile though a warning says that light or chart are likely others
     #[arg(long)]
     accept_warnings: bool,
@@ -106,6 +109,10 @@ pub(super) fn run(arguments: &ChartArguments) -> Result<()> {
         return Err(CliError::File(format!("{}: {why}", files.join(", "))));
     }
     let lights: Vec<&str> = found.profiles.iter().map(|(light, _)| light.as_str()).collect();
+    let number = arguments.profile_light.as_ref().map_or(Some(0), |name| lights.iter().position(|light| light == name));
+    let Some(number) = number else {
+        return refused("--profile-light", format!("name one of {}", lights.join(", ")));
+    };
     let (count, charts) = (found.shots[0].patches.len(), found.charts.join(", "));
     let method = format!("raw values of {count} patches of {charts} under {}", lights.join(", "));
     let model = arguments.model.as_ref().or(stated.as_ref());
@@ -118,7 +125,7 @@ pub(super) fn run(arguments: &ChartArguments) -> Result<()> {
     let terms = format!("Fitted to a photograph of a chart{author}; license: {license}");
     let (model, profiles) = (model.map(String::as_str), found.profiles.as_slice());
     let correction = ShotCorrection { camera: &camera, model, terms: &terms, profiles };
-    let bytes = correction.written((form, 0))?;
+    let bytes = correction.written((form, number))?;
     if form == CorrectionForm::Dcp && model.is_none() {
         say(&format!("chromascope: {} Name it with --model.\n", correction.model_in_words()));
     }
