@@ -48,10 +48,13 @@ impl ChromascopeApp {
         (self.view.recorded.photo, self.view.recorded.photos) = (None, BTreeMap::new());
         let mut to = Measurement { shots: Vec::new(), ..self.history.document().measurement.clone() };
         for pass in passes {
-            if to.passes.iter().all(|known| known.contents != pass.contents) {
-                to.passes.push(pass);
+            match to.passes.iter_mut().find(|known| known.is_again(&pass)) {
+                Some(known) => *known = pass,
+                None => to.passes.push(pass),
             }
         }
+        let stated = to.passes.iter().filter_map(|pass| Some(pass.pictures?.clip)).filter(|clip| clip.is_finite());
+        to.clip = to.clip.or_else(|| stated.reduce(f64::min));
         if to.camera.is_empty() {
             MY_CAMERA.clone_into(&mut to.camera);
         }

@@ -35,7 +35,7 @@ const ABOUT: &str = "Photograph a chart of 24 patches (ColorChecker), evenly lit
     focus, as a raw file, and drop it here: DNG, a linear 16-bit TIFF or PNG, or OpenEXR. The camera's sensitivities are estimated from \
     its raw values with those of the library as a prior: good for color, a guess where the band is wide. Of other charts, click the \
     corners and choose your own reflectances. Or drop tables of narrow bands here, one for each pass, with the columns wavelength_nm, power, \
-    exposure_s, red, green, blue, dark_red, dark_green and dark_blue.";
+    exposure_s, red, green, blue, dark_red, dark_green and dark_blue, or picture and dark_picture in place of these six.";
 const UNKNOWN: &str = "Daylight of unknown temperature";
 const PICK: f32 = 220.0;
 const NAME: f32 = 220.0;

@@ -458,3 +458,22 @@ fn tables_of_bands_that_are_wrong_say_why() {
     until(&mut window, "Choose the light that after_bands.png");
     assert!(window.state().history.document().measurement.passes.is_empty());
 }
+
+#[test]
+fn pictures_of_bands_become_a_camera() {
+    let [first, second] = [1, 2].map(|number| crate::cli::recover::pass_of_pictures("bands_of_pictures", number));
+    let mut window = window();
+    window.state_mut().open_at_start(vec![first.clone(), second]);
+    until(&mut window, "Saturated, skipped and filled from the library's tables: blue at 410, 420, 430, 440 nm");
+    let pass = "Pass 1: pass1.csv, 31 bands: means of 12 × 10 pixels at 18, 15 of each picture";
+    assert!(window.query_by_label(pass).is_some() && can(&window, ADD));
+    let document = window.state().history.document().clone();
+    assert_eq!(document.measurement.clip, Some(65535.0), "the end of the scale is that of the pictures");
+    let stated = std::fs::read_to_string(&first).unwrap();
+    std::fs::write(&first, format!("# region: 20,16,8,8\n{stated}")).unwrap();
+    window.state_mut().push(Command::OpenPath(first));
+    until(&mut window, "31 bands: means of 8 × 8 pixels at 20, 16 of each picture");
+    assert_eq!(window.state().history.document().measurement.passes.len(), 2, "it is the same pass");
+    let document = window.state().history.document().clone();
+    assert_eq!(from_json(&to_json(&document).unwrap()).unwrap().measurement, document.measurement);
+}

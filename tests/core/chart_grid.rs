@@ -1,6 +1,6 @@
 //! Patches of a chart in a picture, by the corners of its grid.
 
-use chromascope_core::camera::chart_grid::{ChartGrid, ChartGridError, grids, named_places};
+use chromascope_core::camera::chart_grid::{ChartGrid, ChartGridError, grids, named_places, region_mean};
 use chromascope_math::random::SplitMix64;
 
 /// A picture of 6 × 4 patches in perspective: patch i has (i + 1, 2(i + 1), 3(i + 1)), everything else −1.
@@ -53,6 +53,23 @@ fn corners_that_mark_no_grid_are_refused() {
     assert_eq!(grid.means([100, 90], 1e9, picture), Err(ChartGridError::Outside { corner: 2, width: 100, height: 90 }));
     let tiny = ChartGrid::new([[0.0, 0.0], [9.0, 0.0], [9.0, 6.0], [0.0, 6.0]], 6, 4).unwrap();
     assert!(matches!(tiny.means([140, 90], 1e9, picture), Err(ChartGridError::TooSmall { .. })));
+}
+
+#[test]
+fn a_region_is_averaged_within_its_bounds() {
+    let pixel =
+        |x: usize, y: usize| if (3..7).contains(&x) && (2..5).contains(&y) { [x as f64, 2.0, 9.0] } else { [-1.0; 3] };
+    let found = region_mean([3, 2, 4, 3], [8, 6], 9.0, pixel).unwrap();
+    assert_eq!((found.mean, found.pixels, found.clipped), ([4.5, 2.0, 9.0], 12, [false, false, true]));
+    // Many pixels are taken an odd number apart: as many of each column of a mosaic.
+    let mosaic = |x: usize, _: usize| if x % 2 == 0 { [x as f64, f64::NAN, 1.0] } else { [f64::NAN, 7.0, 1.0] };
+    let found = region_mean([0, 0, 1000, 1000], [1000, 1000], 1e9, mosaic).unwrap();
+    assert!((found.mean[0] - 499.5).abs() < 3.0 && found.mean[1] == 7.0, "{:?}", found.mean);
+    assert!((20_000..60_000).contains(&found.pixels), "{}", found.pixels);
+    for region in [[5, 2, 4, 3], [3, 4, 4, 3], [0, 0, 1, 3], [usize::MAX, 0, 2, 2]] {
+        let why = ChartGridError::Region { region, width: 8, height: 6 };
+        assert_eq!(region_mean(region, [8, 6], 9.0, pixel), Err(why));
+    }
 }
 
 #[test]

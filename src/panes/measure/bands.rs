@@ -23,7 +23,8 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
     for (index, pass) in measurement.passes.iter().enumerate() {
         ui.push_id(index, |ui| {
             ui.horizontal_wrapped(|ui| {
-                ui.label(format!("Pass {}: {}, {} bands", index + 1, pass.file, pass.bands.len()));
+                let means = pass.pictures.map_or_else(String::new, |pictures| format!(": {pictures}"));
+                ui.label(format!("Pass {}: {}, {} bands{means}", index + 1, pass.file, pass.bands.len()));
                 if ui.button("Remove").on_hover_text("Remove this pass from the measurement").clicked() {
                     change(context, "Remove a pass", |measurement| {
                         measurement.passes.remove(index);
@@ -33,6 +34,12 @@ pub(super) fn show(ui: &mut Ui, context: &mut PaneContext<'_>) {
         });
     }
     clip(ui, measurement, context);
+    if measurement.passes.iter().any(|pass| pass.pictures.is_some()) {
+        widgets::note(
+            ui,
+            "Another part of the pictures counts by a line # region: LEFT,TOP,WIDTH,HEIGHT in the table; then open it again.",
+        );
+    }
     widgets::note(ui, "The session keeps the values of the bands.");
     if measurement.clip.is_none() {
         return heading(ui, "Name the raw value from which on a mean is saturated: the end of the camera's scale.");

@@ -1,5 +1,7 @@
 //! `recover chart`: what is printed, what is stated in the file, and what is not written.
 
+use std::path::{Path, PathBuf};
+
 use chromascope_core::patch_set::PatchSet;
 use chromascope_core::spectral::{Dataset, GridSpectrum, Quantity, Sensor};
 
@@ -164,4 +166,74 @@ fn narrow_bands_are_printed_with_what_was_left_out() {
     let output = run(&["recover", "narrowband", few.to_str().unwrap(), "--clip", "16384"]);
     let error = String::from_utf8(output.stderr).unwrap();
     assert!(error.contains("recover_few_bands.csv: 4 bands; at least 8 are needed"), "{error}");
+}
+
+/// A table of the pictures of a pass, 16 bits of its 14, in a folder of its own: 48 × 40 pixels, the band in the middle quarter of width and
+/// height.
+pub(crate) fn pass_of_pictures(name: &str, number: u32) -> PathBuf {
+    const WHITE: f64 = 65535.0 / 16384.0;
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    std::fs::create_dir_all(&folder).unwrap();
+    let text = chromascope_data::text(&format!("test-samples/nikon_d70_narrowband_pass{number}.csv")).unwrap();
+    let mut table = String::from("wavelength_nm,power,exposure_s,picture,dark_picture\n");
+    for row in text.lines().filter(|line| line.starts_with(|c: char| c.is_ascii_digit())) {
+        let cells: Vec<&str> = row.split(',').collect();
+        let picture = |name: &str, means: &[&str]| {
+            let rgb: Vec<u16> =
+                means.iter().map(|mean| (WHITE * mean.parse::<f64>().unwrap()).round() as u16).collect();
+            let pixel = |x, y| {
+                let is_band = (18..30).contains(&x) && (15..25).contains(&y);
+                image::Rgb(if is_band { [rgb[0], rgb[1], rgb[2]] } else { [60_000, 50, 30_000] })
+            };
+            image::ImageBuffer::from_fn(48, 40, pixel).save(folder.join(name)).unwrap();
+        };
+        let [lit, dark] = ["lit", "dark"].map(|what| format!("{}_{what}_{number}.png", cells[0]));
+        picture(&lit, &cells[3..6]);
+        picture(&dark, &cells[6..9]);
+        table += &format!("{},{lit},{dark}\n", cells[..3].join(","));
+    }
+    let path = folder.join(format!("pass{number}.csv"));
+    std::fs::write(&path, table).unwrap();
+    path
+}
+
+#[test]
+fn pictures_of_bands_say_what_their_means_say() {
+    let text = chromascope_data::text("test-samples/nikon_d70_narrowband_pass1.csv").unwrap();
+    let means = file("recover_means.csv", text).display().to_string();
+    let table = pass_of_pictures("recover_pictures", 1);
+    let pictures = table.display().to_string();
+    let curves = |arguments: &[&str]| {
+        let output = run(&[&["recover", "narrowband"], arguments].concat());
+        let out = String::from_utf8(output.stdout).unwrap();
+        assert!(output.status.success(), "{out} {}", String::from_utf8_lossy(&output.stderr));
+        let rows = out.lines().filter(|line| line.trim_start().starts_with(|c: char| c.is_ascii_digit()));
+        let cells = rows.map(|row| row.split_whitespace().filter_map(|cell| cell.parse().ok()).collect::<Vec<f64>>());
+        (cells.collect::<Vec<_>>(), out)
+    };
+    let (of_means, _) = curves(&[&means, "--clip", "16384"]);
+    let (of_pictures, out) = curves(&[&pictures]);
+    assert!(out.contains("tables: blue at 410, 420, 430, 440 nm"), "{out}");
+    assert!(out.contains("pass1.csv: means of 12 × 10 pixels at 18, 15 of each picture"), "{out}");
+    assert_eq!(of_means.len(), of_pictures.len());
+    for (mean, picture) in of_means.iter().flatten().zip(of_pictures.iter().flatten()) {
+        // Sixteen bits round a dark blue of 20 by 0.6 %.
+        assert!((mean - picture).abs() <= 3e-3, "{mean} {picture}");
+    }
+    let stated = std::fs::read_to_string(&table).unwrap();
+    std::fs::write(&table, format!("# region: 20,16,8,8\n{stated}")).unwrap();
+    assert!(curves(&[&pictures]).1.contains("means of 8 × 8 pixels at 20, 16"));
+    assert!(curves(&[&pictures, "--region", "19,17,6,6"]).1.contains("means of 6 × 6 pixels at 19, 17"));
+    let refused = |arguments: &[&str], why: &str| {
+        let output = run(&[&["recover", "narrowband"], arguments].concat());
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert!(!output.status.success() && error.contains(why), "{error}");
+    };
+    refused(&[&pictures, "--region", "40,16,20,8"], "line 3, 400_lit_1.png: the region of 20 x 8 pixels at 40, 16");
+    refused(&[&pictures, "--region", "1,2,3"], "LEFT,TOP,WIDTH,HEIGHT");
+    refused(&[&means], "name the raw value from which on a mean is saturated");
+    std::fs::write(&table, format!("# region: a\n{stated}")).unwrap();
+    refused(&[&pictures], "pass1.csv: line 1: expected # region: LEFT,TOP,WIDTH,HEIGHT");
+    std::fs::write(&table, stated.replace("410_lit_1", "none")).unwrap();
+    refused(&[&pictures], "line 3, none.png: ");
 }

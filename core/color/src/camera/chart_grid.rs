@@ -49,6 +49,11 @@ pub enum ChartGridError {
         patch: usize,
         pixels: usize,
     },
+    #[error(
+        "the region of {} x {} pixels at {}, {} does not lie within the picture of {width} x {height} pixels, or has fewer than {FEWEST_PIXELS}",
+        region[2], region[3], region[0], region[1]
+    )]
+    Region { region: [usize; 4], width: usize, height: usize },
 }
 
 /// Grid of patches in perspective.
@@ -152,7 +157,7 @@ impl ChartGrid {
         let high = self.corners.iter().fold(DVec2::MIN, |high, p| high.max(*p)).ceil();
         let [a, b, c, d] = self.corners;
         let patch_area = ((c - a).perp_dot(d - b) / 2.0).abs() * CENTRAL * CENTRAL / self.patches() as f64;
-        let step = 2 * ((patch_area / MANY_PIXELS).sqrt() / 2.0).round() as usize + 1;
+        let step = step(patch_area);
         let mut pixels = vec![(0, [const { Vec::new() }; 3]); self.patches()];
         for y in (low.y as usize..(high.y as usize).min(height)).step_by(step) {
             for x in (low.x as usize..(high.x as usize).min(width)).step_by(step) {
@@ -191,6 +196,41 @@ impl ChartGrid {
         let off = (cell - cell.floor() - 0.5).abs().max_element();
         (within && off <= CENTRAL / 2.0).then(|| row as usize * self.columns + column as usize)
     }
+}
+
+/// Mean of a region of a picture: left, top, width and height in pixels. `pixel(x, y)` is as for [`ChartGrid::means`].
+///
+/// # Errors
+/// [`ChartGridError::Region`] where it is not within the picture or too small.
+pub fn region_mean(
+    region: [usize; 4],
+    [width, height]: [usize; 2],
+    clip: f64,
+    pixel: impl Fn(usize, usize) -> [f64; 3],
+) -> Result<PatchMean, ChartGridError> {
+    let [left, top, across, down] = region;
+    let area = across.saturating_mul(down);
+    let is_within = left.saturating_add(across) <= width && top.saturating_add(down) <= height;
+    if !is_within || area < FEWEST_PIXELS {
+        return Err(ChartGridError::Region { region, width, height });
+    }
+    let step = step(area as f64);
+    let mut channels = [const { Vec::new() }; 3];
+    let mut count = 0;
+    for y in (top..top + down).step_by(step) {
+        for x in (left..left + across).step_by(step) {
+            count += 1;
+            for (channel, value) in channels.iter_mut().zip(pixel(x, y)) {
+                channel.extend(Some(value).filter(|value| !value.is_nan()));
+            }
+        }
+    }
+    Ok(PatchMean::new(channels, count, clip))
+}
+
+/// Odd number of pixels apart that those of an area are taken.
+fn step(area: f64) -> usize {
+    2 * ((area / MANY_PIXELS).sqrt() / 2.0).round() as usize + 1
 }
 
 /// Places of patches in a grid, row by row from its first corner, by names of a letter and a number such as A1 or N10: the letters are

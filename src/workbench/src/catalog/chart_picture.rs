@@ -3,7 +3,7 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use chromascope_core::camera::chart_grid::{ChartGrid, ChartGridError, PatchMean};
+use chromascope_core::camera::chart_grid::{ChartGrid, ChartGridError, PatchMean, region_mean};
 use chromascope_core::camera::chart_search::{FoundChart, find_chart, refine_chart};
 use chromascope_core::colorimetry::rgb::srgb_transfer;
 use chromascope_core::patch_set::Patch;
@@ -215,7 +215,8 @@ impl ChartPicture {
         Some(refine_chart(&rough, self.size(), |x, y| self.pixel(x, y)).map_or(corners, |fine| fine.corners))
     }
 
-    fn clip(&self, clip: f64) -> f64 {
+    /// Value from which on pixels are clipped, at most the given one.
+    pub(super) fn clip(&self, clip: f64) -> f64 {
         match &self.0 {
             Pixels::Picture(_) => clip.min(CLIP),
             Pixels::Raw(raw) => clip.min(raw.clip()),
@@ -231,6 +232,11 @@ impl ChartPicture {
             clipped: patch.clipped_share.into_iter().fold(0.0, f64::max),
         };
         Ok(means.iter().map(patch).collect())
+    }
+
+    /// Means of left, top, width and height in pixels.
+    pub(super) fn region(&self, region: [usize; 4]) -> Result<PatchMean, ChartPictureError> {
+        Ok(region_mean(region, self.size(), self.clip(f64::INFINITY), |x, y| self.pixel(x, y))?)
     }
 
     fn means(&self, grid: &ChartGrid, clip: f64) -> Result<Vec<PatchMean>, ChartPictureError> {

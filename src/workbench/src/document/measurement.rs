@@ -1,5 +1,6 @@
 //! What a camera recorded of charts or of narrow bands, by value: the photographs themselves are not part of a document.
 
+use std::fmt;
 use std::path::Path;
 
 use chromascope_core::camera::chart_search::CHART_SIZE;
@@ -107,6 +108,35 @@ pub struct MeasuredPass {
     pub file: String,
     pub contents: Fingerprint,
     pub bands: Pass,
+    /// Of which part of which pictures the means are; none of a table of means.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pictures: Option<BandPictures>,
+}
+
+impl MeasuredPass {
+    /// True for the same table, or for one of its name that differs in nothing but means, such as those of another region.
+    pub fn is_again(&self, other: &Self) -> bool {
+        let conditions = |of: &Self| -> Vec<[f64; 3]> {
+            of.bands.iter().map(|band| [band.wavelength_nm, band.power, band.exposure]).collect()
+        };
+        self.contents == other.contents || self.file == other.file && conditions(self) == conditions(other)
+    }
+}
+
+/// What the means of bands were taken of.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BandPictures {
+    /// Left, top, width and height in pixels.
+    pub region: [usize; 4],
+    /// Value from which on the pictures are clipped.
+    pub clip: f64,
+}
+
+impl fmt::Display for BandPictures {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [left, top, width, height] = self.region;
+        write!(f, "means of {width} × {height} pixels at {left}, {top} of each picture")
+    }
 }
 
 /// Means of a patch in the picture, linear, black at 0.

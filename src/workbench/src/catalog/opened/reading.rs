@@ -87,9 +87,11 @@ pub(super) fn open(
             }
         };
         if overrides.is_none() && is_pass(&bytes) {
-            match read_pass(&bytes) {
-                Ok(bands) => {
-                    harvest.passes.push(MeasuredPass { file: origin.name, contents: origin.fingerprint, bands });
+            let folder = origin.path.as_deref().and_then(Path::parent);
+            match read_pass(&bytes, folder, None, &|| job.go_on(0.0)) {
+                Ok((bands, pictures)) => {
+                    let contents = origin.fingerprint;
+                    harvest.passes.push(MeasuredPass { file: origin.name, contents, bands, pictures });
                 }
                 Err(error) => harvest.failures.push(format!("{}: {error}", origin.name)),
             }
