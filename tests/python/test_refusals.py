@@ -158,7 +158,7 @@ class Values(unittest.TestCase):
         lit = cs.responses(spectra, nm, camera, "D65")
         power = np.interp(nm, light["wavelengths"], light["values"])
         np.testing.assert_allclose(lit, cs.responses(spectra * power, nm, camera), rtol=1e-13)
-        planck = nm**-5.0 / np.expm1(1.438776877e7 / nm / 3000)
+        planck = nm**-5.0 / np.expm1(1.4388e7 / nm / 3000)  # the c2 of the program, that of ITS-90
         ratio = cs.responses(spectra, nm, camera, "blackbody:3000") / cs.responses(spectra * planck, nm, camera)
         np.testing.assert_allclose(ratio, ratio[0, 0], rtol=1e-12)
         with self.assertRaisesRegex(ValueError, 'light: "warm" is not a temperature; write daylight:5500'):
