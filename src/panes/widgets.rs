@@ -516,9 +516,24 @@ pub fn scroll(
     }
     ui.data_mut(|data| data.insert_temp(key, height));
     if kept > 0.0 && height - shown.state.clamped_offset().y > view.height() + 1.0 {
+        fade(ui.painter(), view, context.theme.panel);
         let slot = slot.shrink2(Vec2::new(2.0 * UNIT, 0.0));
         more_below(&ui.new_child(UiBuilder::new().id_salt((name, "below")).max_rect(slot)), slot, context.theme.weak);
     }
+}
+
+/// Fades the lower end of what scrolls into its ground: a line that is cut there reads as one that goes on.
+pub fn fade(painter: &egui::Painter, area: Rect, ground: Color32) {
+    const DEPTH: f32 = 16.0;
+    let area = area.with_min_y(area.bottom() - DEPTH);
+    let mut mesh = egui::Mesh::default();
+    mesh.colored_vertex(area.left_top(), Color32::TRANSPARENT);
+    mesh.colored_vertex(area.right_top(), Color32::TRANSPARENT);
+    mesh.colored_vertex(area.right_bottom(), ground);
+    mesh.colored_vertex(area.left_bottom(), ground);
+    mesh.add_triangle(0, 1, 2);
+    mesh.add_triangle(0, 2, 3);
+    painter.add(Shape::mesh(mesh));
 }
 
 /// A hint at the left of a place that there is more to scroll to.

@@ -361,6 +361,14 @@ fn notes_and_labels_do_not_meet() {
     assert!(placed[1].at[1] > placed[0].at[1] + 11.5, "the note moves below the label");
     assert!(text_width("mmm", TextSize::Body) > text_width("iii", TextSize::Body));
     assert_eq!(wrapped("one two three", TextSize::Body, 60.0), ["one two", "three"]);
+    // What belongs together stays in one line.
+    for (lead, bound) in
+        [("whiskers:", "± u"), ("with", "τ = 10 µm"), ("of 14;", "† extrapolated"), ("Canon", "5D III")]
+    {
+        let width = text_width(&format!("{lead} {}", bound.rsplit_once(' ').unwrap().0), TextSize::Body) + 1.0;
+        let room = width.max(text_width(bound, TextSize::Body));
+        assert_eq!(wrapped(&format!("{lead} {bound}"), TextSize::Body, room), [lead, bound]);
+    }
 }
 
 #[test]

@@ -32,9 +32,15 @@ fn advance(c: char) -> f64 {
     }
 }
 
-/// True for a unit, or for an observer's field, that follows a number.
-fn is_unit(word: &str) -> bool {
-    ["K", "µm", "nm", "%", "2°", "10°"].contains(&word.trim_end_matches(['.', ',', ';', ')']))
+/// True if a word stays in the line of the word before it: a unit or an observer's field after a number, the number of an
+/// edition, what a sign stands before, an equals sign.
+fn is_bound(before: &str, word: &str) -> bool {
+    let bare = word.trim_end_matches(['.', ',', ';', ':', ')']);
+    let is_number = before.parse::<f64>().is_ok();
+    (is_number && ["K", "µm", "nm", "%", "2°", "10°"].contains(&bare))
+        || ["II", "III", "IV"].contains(&bare)
+        || ["±", "=", "†"].contains(&before)
+        || word == "="
 }
 
 /// Breaks text at spaces into lines not wider than `width` points, unless a single word is.
@@ -47,9 +53,12 @@ pub fn wrapped(text: &str, size: TextSize, width: f64) -> Vec<String> {
             if line.is_empty() || text_width(&longer, size) <= width {
                 line = longer;
             } else {
-                // A unit stays with its number.
-                let at = line.rfind(' ').filter(|at| is_unit(word) && line[at + 1..].parse::<f64>().is_ok());
-                let next = at.map_or(word.to_owned(), |at| format!("{} {word}", line.split_off(at).trim_start()));
+                let mut next = word.to_owned();
+                while let Some(at) = line.rfind(' ')
+                    && is_bound(&line[at + 1..], next.split(' ').next().unwrap_or_default())
+                {
+                    next = format!("{} {next}", line.split_off(at).trim_start());
+                }
                 lines.push(std::mem::replace(&mut line, next));
             }
         }

@@ -306,6 +306,6 @@ fn identify(ui: &mut Ui, recorded: &RecordedSet, context: &mut PaneContext<'_>) 
         Some(format!("{}. {}, RMS {} %", place + 1, camera.name, fixed(100.0 * rms, 2)))
     };
     let lines: Vec<String> = ranked.iter().take(NEAREST).enumerate().filter_map(one).collect();
-    ui.add(Label::new(lines.join("   ")).wrap());
+    ui.add(Label::new(lines.join("\n")).wrap());
     widgets::note(ui, RANK_CAUTION);
 }

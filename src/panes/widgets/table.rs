@@ -155,8 +155,11 @@ impl<'a> DataTable<'a> {
     fn keys(&self, ui: &Ui, look: &mut TableLook, body: &mut Body<'_>, context: &mut PaneContext<'_>) -> Option<usize> {
         let now = body.current(look);
         let followed = look.seen != context.view.selected;
-        // A row that is still computed is followed when it is there.
-        if followed && (now.is_some() || context.view.selected.is_none()) {
+        // A row that is still computed is followed until it is at its place.
+        let column = look.sorting.as_ref().and_then(|by| self.table.columns.iter().position(|of| of.name == by.column));
+        let is_placed =
+            |now: usize| column.is_none_or(|column| *self.table.cell(body.order[now], column) != Cell::Empty);
+        if followed && (now.is_some_and(is_placed) || context.view.selected.is_none()) {
             look.seen.clone_from(&context.view.selected);
         }
         let has_keys = context.view.focused == Some(self.pane)

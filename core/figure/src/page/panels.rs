@@ -125,9 +125,7 @@ fn draw_tick_labels(brush: &mut Brush<'_>, panel: &Panel, projection: &Projectio
         brush.text(&TextLine::new([x, plot.max[1] + 6.0], &tick.label, Anchor::TOP, TextSize::Small, ink));
     }
     for tick in &projection.y_ticks {
-        let half = 0.5 * f64::from(TextSize::Small.points());
         let y = projection.at([projection.x[0], tick.value])[1];
-        let y = y.min(panel.area.max[1] - half).max(panel.area.min[1] + half);
         brush.text(&TextLine::new([plot.min[0] - 7.0, y], &tick.label, Anchor::RIGHT, TextSize::Small, ink));
     }
 }

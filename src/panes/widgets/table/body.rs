@@ -7,7 +7,7 @@ use egui_table::{CellInfo, HeaderCellInfo, HeaderRow, PrefetchInfo, TableDelegat
 use super::columns::{Form, Layout, WIDEST_TEXT, air, words};
 use super::{COMPACT_LINE, DataTable, HEAD_LINE, LINE, TableLook, TableOutput, cut};
 use crate::panes::context::PaneContext;
-use crate::panes::widgets::{focus_rim, lines};
+use crate::panes::widgets::{fade, focus_rim, lines};
 use crate::plot_item::{PlotItem, Relation};
 use crate::theme::{Theme, UNIT};
 use crate::view::Sorting;
@@ -32,6 +32,8 @@ pub(super) struct Body<'a> {
     sticks: bool,
     /// A column is cut at the right, or out of sight there.
     goes_on: bool,
+    /// Rows are out of sight below.
+    has_more: bool,
     /// Air at the right of cells that a narrow table does without.
     spared: f32,
     frozen: bool,
@@ -63,6 +65,7 @@ impl<'a> Body<'a> {
             id: Id::unique(("table", of.id)),
             sticks: false,
             goes_on: false,
+            has_more: false,
             spared: 0.0,
             frozen: false,
             hovered: None,
@@ -146,6 +149,9 @@ impl<'a> Body<'a> {
             table = table.scroll_to_row(row as u64, None);
         }
         table.show(&mut child, self);
+        if self.has_more {
+            fade(child.painter(), rect, self.theme.panel);
+        }
         if self.goes_on {
             let at = egui::pos2(rect.right() - UNIT, rect.top() + 0.5 * self.head_height());
             let stroke = Stroke::new(1.5, self.theme.text);
@@ -291,6 +297,7 @@ impl TableDelegate for Body<'_> {
     fn prepare(&mut self, seen: &PrefetchInfo) {
         self.frozen = false;
         self.goes_on = seen.visible_columns.end < self.shown.len();
+        self.has_more = seen.visible_rows.end < self.order.len() as u64;
     }
 
     fn default_row_height(&self) -> f32 {

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use chromascope_core::spectral::grid::{FIRST_NM, LAST_NM};
 use chromascope_figure::{
     Axis, Cell, Column, Figure, FigureRoom, Ink, InkRole, Label, Labels, LegendEntry, LegendPlace, Mark, Numbers,
-    Panel, Place, Projection, Rect, Shape, Stroke, Table, Tag, TextSize, finite_runs,
+    Panel, Place, Rect, Shape, Stroke, Table, Tag, TextSize, finite_runs,
 };
 
 pub use drawn::{Curve, Curves, DRAWN};
@@ -22,9 +22,8 @@ use crate::plot_item::PickIndex;
 use crate::scene::Scene;
 
 const SIZE: [f64; 2] = [640.0, 360.0];
-/// The height of a line of small text with its margins, and of what is below a plot.
-const TEXT: f64 = 18.0;
-const BELOW: f64 = Projection::BOTTOM + Projection::TITLE;
+/// Room above a peak for the letter of a channel.
+const LETTER: f64 = 17.0;
 /// Maximum number of curves with legend entries of their own.
 const NAMED: usize = 12;
 /// Maximum number of curves that a caption names.
@@ -36,18 +35,28 @@ pub fn panel(curves: &Curves, size: [f64; 2], hovered: Option<usize>) -> Panel {
     let [low, high] = curves.span();
     let low = low.min(0.0);
     let clipped = curves.beyond().is_some();
+    let kept = |curve: &Curve| {
+        let mut points = curve.points.clone();
+        if clipped {
+            // Parts of curves far beyond the plot are not drawn; a note says so.
+            points.iter_mut().filter(|[_, y]| *y < low || *y > high).for_each(|point| point[1] = f64::NAN);
+        }
+        points
+    };
     // Margin above the curves for labels, none below: near zero there are curves everywhere.
-    let lines = if clipped { 2.0 } else { 1.0 };
-    let share = (lines * TEXT / (size[1] - BELOW).max(1.0)).clamp(0.05, 0.4);
-    let room = ((high - low) * share / (1.0 - share)).max(1e-12);
     let below = if low < 0.0 { 0.05 * (high - low) } else { 0.0 };
-    let range = [low - below, (high + room).max(round_above(high).filter(|nice| *nice < 1.4 * high).unwrap_or(high))];
+    let range = [low - below, round_above(high).filter(|nice| *nice < 1.4 * high).unwrap_or(high).max(low + 1e-12)];
     let y = Axis::new(curves.quantity.clone(), range);
     let mut panel = Panel::new("curves of the file", Rect::from_min_size([0.0, 0.0], size), x, y);
     panel.note = curves.beyond().map_or_else(|| curves.note.clone(), |beyond| format!("{}; {beyond}", curves.note));
+    // As if nothing were hovered: the axis holds still.
+    let all = curves.drawn.iter().flat_map(|curve| marks(curve, kept(curve), false, curves.drawn.len()));
+    panel.marks.extend(all);
+    let mut panel = panel.with_headroom(if curves.drawn.iter().any(|of| of.channel.is_some()) { LETTER } else { 3.0 });
+    panel.marks.clear();
     let [first, last] = curves.range_nm();
     if first < FIRST_NM || last > LAST_NM {
-        panel.marks.push(visible(range));
+        panel.marks.push(visible(panel.y.range));
     }
     panel.marks.push(zero(curves.range_nm()));
     let count = curves.drawn.len();
@@ -59,12 +68,7 @@ pub fn panel(curves: &Curves, size: [f64; 2], hovered: Option<usize>) -> Panel {
     let last = curves.drawn.iter().filter(|curve| Some(curve.place) == hovered);
     for curve in curves.drawn.iter().filter(|curve| Some(curve.place) != hovered).chain(last) {
         let on = Some(curve.place) == hovered;
-        let mut points = curve.points.clone();
-        if clipped {
-            // Parts of curves far beyond the plot are not drawn; a note says so.
-            points.iter_mut().filter(|[_, y]| *y < low || *y > high).for_each(|point| point[1] = f64::NAN);
-        }
-        panel.marks.extend(marks(curve, points, on, curves.drawn.len()));
+        panel.marks.extend(marks(curve, kept(curve), on, curves.drawn.len()));
     }
     let mut labels = Labels::new(&panel);
     for curve in &curves.drawn {

@@ -109,7 +109,8 @@ impl Name {
             (Anchor::LEFT_BOTTOM, [4.0, -2.0]),
             (Anchor::LEFT_BOTTOM, [9.0, -2.0]),
         ];
-        let above = [8.0, -8.0, 16.0, -16.0, 24.0, -24.0, 32.0, -32.0].map(|x| (Anchor::BOTTOM, [x, -3.0]));
+        // No farther: a letter beside another curve would name that one.
+        let above = [8.0, -8.0, 16.0, -16.0].map(|x| (Anchor::BOTTOM, [x, -3.0]));
         let at = |sides: &[(Anchor, [f64; 2])]| -> Vec<LabelPlace> {
             let places = self.points.iter().flat_map(|at| sides.iter().map(|(anchor, offset)| (*at, *anchor, *offset)));
             places.map(|(at, anchor, offset)| LabelPlace { at, anchor, offset }).collect()

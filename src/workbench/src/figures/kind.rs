@@ -109,9 +109,18 @@ pub(super) fn kelvins(number: f64) -> f64 {
 /// Names of sensors that a figure shows in short and no legend in full, in a sentence.
 fn full_names(scene: &Scene<'_>, figure: &Figure) -> String {
     let marks = figure.panels.iter().flat_map(|panel| &panel.marks).filter(|_| figure.legend.is_empty());
-    let is_written =
-        |name: &str| marks.clone().any(|mark| matches!(&mark.shape, Shape::Text { text, .. } if text == name));
-    let short = scene.visible_sources().into_iter().filter(|of| of.short != of.label && is_written(&of.short));
-    let names: Vec<String> = short.map(|of| format!("{}: {}", of.short, of.label)).collect();
+    let texts = marks.filter_map(|mark| if let Shape::Text { text, .. } = &mark.shape { Some(text) } else { None });
+    // In little room a name may have been cut in its middle.
+    let is_of = |text: &str, name: &str| match text.split_once('…') {
+        Some((head, tail)) => name.starts_with(head) && name.ends_with(tail),
+        None => text == name,
+    };
+    let short = scene.visible_sources().into_iter().filter_map(|of| {
+        let written = texts
+            .clone()
+            .find(|text| **text != of.label && [&of.short, &of.label].iter().any(|name| is_of(text, name)));
+        Some(format!("{}: {}", written?, of.label))
+    });
+    let names: Vec<String> = short.collect();
     if names.is_empty() { String::new() } else { format!(" {}.", names.join("; ")) }
 }

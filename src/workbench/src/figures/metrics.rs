@@ -192,6 +192,20 @@ fn shown(count: usize, most: usize, must: impl Fn(usize) -> bool) -> Vec<usize> 
     (0..count).filter(|place| takes(place)).collect()
 }
 
+/// Makers of cameras whose names are shortened, each with these, in a sentence.
+fn makers<'a>(named: impl Iterator<Item = (&'a str, &'a str)>) -> String {
+    let mut groups: Vec<(&str, String)> = Vec::new();
+    for (full, short) in named.filter(|(full, short)| full != short) {
+        let maker = full.split(' ').next().unwrap_or_default();
+        match groups.iter_mut().find(|(of, _)| *of == maker) {
+            Some((_, all)) => *all += &format!(", {short}"),
+            None => groups.push((maker, format!("{maker}: {short}"))),
+        }
+    }
+    let groups: Vec<String> = groups.into_iter().map(|(_, words)| words).collect();
+    if groups.is_empty() { String::new() } else { format!(" {}.", groups.join("; ")) }
+}
+
 /// Cameras in the order of the table with their values of the metric by which it is sorted, and the table of all numbers.
 fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
     let ranked = scene.ranked(look.cameras);
@@ -211,9 +225,14 @@ fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figu
     let width = room.width.unwrap_or(WIDTH);
     let most = room.height.map_or(MOST, |height| (height / whiskers::ROW) as usize - 4);
     let places = shown(order.len(), most.max(2), |place| source(order[place].0).is_some());
-    let names: Vec<&str> = places.iter().map(|place| ranked.cameras[order[*place].0].id.name.as_str()).collect();
-    let names =
-        if width < NARROW { shortest(names.into_iter()) } else { names.into_iter().map(str::to_owned).collect() };
+    let full: Vec<&str> = places.iter().map(|place| ranked.cameras[order[*place].0].id.name.as_str()).collect();
+    let names: Vec<String> = if width < NARROW {
+        shortest(full.iter().copied())
+    } else {
+        full.iter().map(|name| (*name).to_owned()).collect()
+    };
+    let others = full.iter().zip(&names).zip(&places).filter(|(_, place)| source(order[**place].0).is_none());
+    let makers = makers(others.map(|((full, short), _)| (*full, short.as_str())));
     let mut rows = Vec::new();
     let mut next = 0;
     for (&place, name) in places.iter().zip(names) {
@@ -263,7 +282,7 @@ fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figu
     };
     let behind = if width < NARROW { "ranks" } else { "values and ranks" };
     figure.caption = format!(
-        "{among}Whiskers: ± u. At the right: {behind}, a range where cameras do not differ at 95 %. {} {}",
+        "{among}Whiskers: ± u. At the right: {behind}, a range where cameras do not differ at 95 %. {} {}{makers}",
         scene.metrics_words_with(
             &[metric],
             places.iter().filter_map(|place| order[*place].1.uncertainty).collect::<Vec<_>>()

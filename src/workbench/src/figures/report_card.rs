@@ -35,9 +35,11 @@ const NAME_LINE: f64 = 20.0;
 const PLOTS: f64 = 190.0;
 const BARS: f64 = 200.0;
 /// Heights of plots and bars in one column.
-const LOW_PLOTS: f64 = 120.0;
+const LOW_PLOTS: f64 = 132.0;
 const LOW_BARS: f64 = 150.0;
 const LINE: f64 = 15.0;
+/// Half of a number at the lower end of an axis.
+const NUMBER: f64 = 6.0;
 const FOOT_LINE: f64 = 14.0;
 
 /// The camera of Rank's page: the selected one, else the first that is compared.
@@ -87,13 +89,15 @@ pub fn page(scene: &Scene<'_>, id: &SensorId, figures: &CameraFigures, width: f6
         let row = place(BARS);
         [[0.0, 0.28], [0.28, 0.5], [0.5, 1.0]].map(|part| beside(row, part))
     };
+    // Under the bars' lowest number, which stands half below its plot.
+    place(NUMBER);
     panels.push(sensitivities(scene, id, areas[0]));
     panels.push(locus(scene, id, areas[1]));
     panels.push(patches(scene, &figures.metrics, areas[2]));
     let columns = list(((width / LIST_COLUMN) as usize).max(2));
     let rows = columns.iter().map(Vec::len).max().unwrap_or(0);
     let temperature_k = scene.document.temperature_k;
-    panels.push(values(figures, place(LINE * (rows as f64 + 0.4)), &columns, temperature_k));
+    panels.push(values(figures, place(LINE * (rows as f64 + 0.6)), &columns, temperature_k));
     let known: Vec<_> = figures.uncertainties.iter().flat_map(|all| all.iter().copied().flatten()).collect();
     let words = in_words(known).replacen("±:", "In brackets, of the last digits:", 1);
     let words = chromascope_figure::wrapped(&words, TextSize::Small, width - 16.0);
@@ -132,7 +136,8 @@ fn title(source: &[String], name: &[String], area: Rect) -> Panel {
 fn sensitivities(scene: &Scene<'_>, id: &SensorId, area: Rect) -> Panel {
     let x = Axis::new("wavelength (nm)", [FIRST_NM, LAST_NM]);
     let note = "sensitivity".to_owned();
-    let mut panel = Panel { note, ..Panel::new("sensitivities", area, x, Axis::new("", [0.0, 1.1])) };
+    let y = Axis::new("", [0.0, 1.1]).with_ticks(Ticks::At([0.0, 0.5, 1.0].map(|v| (v, format!("{v:.1}"))).into()));
+    let mut panel = Panel { note, ..Panel::new("sensitivities", area, x, y) };
     let Ok(sensor) = scene.sensor(id.kind, &id.name) else { return panel };
     let peak = sensor.curves().iter().flat_map(SpectralDistribution::values).copied().fold(f64::MIN_POSITIVE, f64::max);
     let inks = [[0xC0, 0x30, 0x30], [0x30, 0x90, 0x30], [0x30, 0x50, 0xC0]].map(Ink::rgb);
@@ -265,7 +270,7 @@ fn values(figures: &CameraFigures, area: Rect, columns: &[Vec<Line>], temperatur
     let mut panel = Panel::board("figures of merit", area, Ink::new(InkRole::Plot));
     let places = columns.iter().enumerate().flat_map(|(column, lines)| {
         let left = 8.0 + column as f64 * area.width() / columns.len() as f64;
-        lines.iter().enumerate().map(move |(row, line)| (left, LINE * (row as f64 + 0.7), *line))
+        lines.iter().enumerate().map(move |(row, line)| (left, LINE * (row as f64 + 0.9), *line))
     });
     for (left, y, line) in places {
         let at = match line {

@@ -19,6 +19,8 @@ const FEW: usize = 12;
 const COUNTS: [f64; 2] = [25.0, 192.0];
 /// Their diameters in points there, rim included.
 const DIAMETERS: [f64; 2] = [15.0, 6.0];
+/// Number of sensors up to which markers are no larger: few sensors have errors as small as many have.
+const USUAL: usize = 4;
 /// Share by which the first camera's markers are smaller than the last one's below them.
 const STEPPED: f64 = 0.25;
 
@@ -38,8 +40,8 @@ pub(super) fn add(drawing: &mut Drawing<'_>, sources: &[ComparedSensor]) {
     let reference =
         drawing.scene.patch_colors(SetKind::Observer, &drawing.scene.document.reference).unwrap_or_default();
     let few = names.len() <= FEW;
-    let diameter =
-        if drawing.sketch { DIAMETERS[1] } else { diameter(names.len() * drawing.scene.document.compared.len()) };
+    let count = names.len() * drawing.scene.document.compared.len().max(USUAL);
+    let diameter = if drawing.sketch { DIAMETERS[1] } else { diameter(count) };
     let cameras = sources.iter().filter(|source| !source.is_reference).count();
     let mut below = 0.0;
     for source in sources.iter().rev() {

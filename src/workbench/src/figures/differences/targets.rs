@@ -63,13 +63,16 @@ impl Frame {
         let inner: Vec<[f64; 2]> = limit(scene, plane).into_iter().chain(arrows).collect();
         let ring = shifts().map(|shift| shift.p95).fold(0.0, f64::max);
         let shortest = shifts().map(|shift| shift.mean_length).fold(f64::INFINITY, f64::min);
-        let whole = Self::holding(&[inner.as_slice(), &circle(ring)].concat(), all.len(), size);
-        let best = if whole.scale * shortest < LEAST_MEAN { Self::holding(&inner, all.len(), size) } else { whole };
+        let names = all.iter().map(|one| text_width(&one.source.short, TextSize::Small));
+        let named = Heads::KEY + names.fold(0.0, f64::max);
+        let holding = |points: &[[f64; 2]]| Self::holding(points, (all.len(), named), size);
+        let whole = holding(&[inner.as_slice(), &circle(ring)].concat());
+        let best = if whole.scale * shortest < LEAST_MEAN { holding(&inner) } else { whole };
         Self { scale: best.scale * scene.document.exaggeration.factor(), ..best }
     }
 
-    /// The arrangement of so many cells with the largest scale that holds these points.
-    fn holding(points: &[[f64; 2]], count: usize, size: [f64; 2]) -> Self {
+    /// The arrangement of so many cells, wide enough for their names, with the largest scale that holds these points.
+    fn holding(points: &[[f64; 2]], (count, named): (usize, f64), size: [f64; 2]) -> Self {
         let (mut low, mut high) = ([-1e-9; 2], [1e-9; 2]);
         for point in points {
             for axis in 0..2 {
@@ -94,7 +97,11 @@ impl Frame {
             Self { cells: (0..count).map(cell).collect(), head, origin, scale }
         };
         // A narrow cell has no room for what its head says.
-        let merit = |frame: &Self| frame.scale * if frame.width() < NARROW { 0.7 } else { 1.0 };
+        let merit = |frame: &Self| match frame.width() {
+            width if width < named => 0.3 * frame.scale,
+            width if width < NARROW => 0.7 * frame.scale,
+            _ => frame.scale,
+        };
         (2..=count).map(frame).fold(frame(1), |best, other| if merit(&other) > merit(&best) { other } else { best })
     }
 
@@ -463,10 +470,10 @@ impl Target<'_> {
         let place = |[u, v]: [f64; 2], anchor, offset| Place { at: self.at([u * radius, v * radius]), anchor, offset };
         let beside = [[1.0, 0.0], [-1.0, 0.0]].map(|to| place(to, Anchor::TOP, [0.0, 2.0]));
         let above = [[0.0, -1.0], [0.0, 1.0]].map(|to| place(to, Anchor::LEFT, [3.0, 0.0]));
-        // Within a wide ring's sides.
-        let sides = [[-0.94, -0.34], [0.94, -0.34], [-0.94, 0.34], [0.94, 0.34]].map(|to| {
-            let (anchor, inward) = if to[0] < 0.0 { (Anchor::LEFT, 9.0) } else { (Anchor::RIGHT, -9.0) };
-            place(to, anchor, [inward, 0.0])
+        // Else on the ring, which it interrupts.
+        let sides = [0.5, 0.7, 0.87].into_iter().flat_map(|across: f64| {
+            let up = (1.0 - across * across).sqrt();
+            [[across, -up], [-across, -up], [across, up], [-across, up]].map(|to| place(to, Anchor::CENTER, [0.0; 2]))
         });
         let places = beside.into_iter().chain(above).chain(sides);
         let inside = places.filter(|place| self.holds(&words, place)).collect();
@@ -477,7 +484,8 @@ impl Target<'_> {
     fn ground(&mut self, plane: DifferencePlane, named: bool, texts: &mut Vec<Label>) {
         let Rect { min, max } = self.area;
         let frame = Mark::new(PickIndex::NONE, "frame", Shape::Rect { min, max });
-        self.marks.push(frame.with_stroke(InkRole::Grid, 1.0));
+        // A line, not a ground: no text crosses it.
+        self.marks.push(frame.with_stroke(InkRole::Line, 1.0));
         let [x, y] = self.at([0.0; 2]);
         self.segment("reference", [[min[0], y], [max[0], y]], InkRole::Grid, 1.0);
         self.segment("reference", [[x, min[1]], [x, max[1]]], InkRole::Grid, 1.0);
@@ -494,9 +502,9 @@ impl Target<'_> {
         let [across, up, _] = axes(plane).0;
         texts.push(small(
             across.to_owned(),
-            vec![Place { at: [max[0], y], anchor: Anchor::RIGHT_BOTTOM, offset: [-3.0, -2.0] }],
+            vec![Place { at: [max[0], y], anchor: Anchor::RIGHT_BOTTOM, offset: [-4.0, -2.0] }],
         ));
-        texts.push(small(up.to_owned(), vec![Place { at: [x, min[1]], anchor: Anchor::LEFT_TOP, offset: [4.0, 2.0] }]));
+        texts.push(small(up.to_owned(), vec![Place { at: [x, min[1]], anchor: Anchor::LEFT_TOP, offset: [4.0, 3.0] }]));
     }
 }
 

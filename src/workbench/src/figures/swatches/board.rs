@@ -18,6 +18,8 @@ const MARGIN: f64 = 6.0;
 const BAR: f64 = 3.0;
 /// The height of a difference's number.
 const NUMBER: f64 = 11.0;
+/// Space between a number and the bar of the next swatch.
+const APART: f64 = 3.0;
 /// The width from which on a number stands beside its bar, in points.
 const BESIDE: f64 = 52.0;
 /// The least height of a swatch in a row.
@@ -310,7 +312,7 @@ impl<'a> Board<'a> {
         let metric = self.scene.document.difference;
         let words = short(metric, difference);
         let share = (difference / metric.full_scale).clamp(0.0, 1.0);
-        let beside = if is_chart { self.widest } else { text_width(&words, TextSize::Small).max(24.0) + 4.0 };
+        let beside = if is_chart { self.widest } else { text_width(&words, TextSize::Small).max(24.0) + 4.0 } + APART;
         let is_beside = matches!(note, Note::Beside | Note::Close);
         let right = if is_beside { x1 - beside } else { x1 };
         let middle = if is_beside { 0.5 * (y0 + y1) + 0.5 } else { y1 - 0.5 * BAR };
@@ -329,7 +331,7 @@ impl<'a> Board<'a> {
         }
         // A little lower, so that no digit touches the color above.
         match note {
-            Note::Beside | Note::Close => self.marks.push(small(&words, [x1, middle + 0.5], Anchor::RIGHT)),
+            Note::Beside | Note::Close => self.marks.push(small(&words, [x1 - APART, middle + 0.5], Anchor::RIGHT)),
             Note::Above => self.marks.push(small(&words, [x0, y0 + 0.5 * NUMBER + 1.0], Anchor::LEFT)),
             Note::Bar | Note::None => {}
         }
