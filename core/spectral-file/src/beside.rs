@@ -32,7 +32,9 @@ pub(super) fn take(source: Source<'_>, grid: &mut Grid) {
     #[cfg(feature = "json")]
     metadata::take(source.metadata, grid);
     let names_other = grid.header.clues.material || grid.curves.iter().all(|curve| is_one(&curve.name, "n|k"));
-    grid.beside = grid.beside.take().or_else(|| of_path(source.path, names_other));
+    let fluorescence = grid.header.clues.fluorescence;
+    let fits = |beside: &Decided<Role>| !fluorescence || beside.value == Role::Illuminant;
+    grid.beside = grid.beside.take().or_else(|| of_path(source.path, names_other).filter(fits));
     let stem = file_stem(source.path).map(words).unwrap_or_default();
     let clues = &mut grid.header.clues;
     clues.uncertainties = clues.uncertainties.or(uncertainty_terms::is_title(&stem.join(" ")).then_some(0));

@@ -26,6 +26,8 @@ pub(super) struct Clues {
     pub(super) other: Option<(usize, &'static str)>,
     /// True if a line names a property of a material that is none of the quantities read.
     pub(super) material: bool,
+    /// True if a line says that this is a spectrum of fluorescence: what its file is named after is no camera and no fraction.
+    pub(super) fluorescence: bool,
 }
 
 pub(super) const MEASURED: &str = "quantity|spectral quantity|measured quantity|technique|mode|data mode|photometric mode|\
@@ -102,6 +104,7 @@ impl Clues {
             let said = if is_one(value, "no|false|0") { Some(false) } else { present };
             self.ratio = said.map(|said| (line, said)).or(self.ratio);
         }
+        self.fluorescence |= key == "data type" && value.starts_with("fluorescence");
         if is_one(key, MEASURED) {
             self.role = header_terms::role(value).map(|role| (line, role)).or(self.role);
             let values = header_terms::values(value).filter(|values| *values != Values::Plain);

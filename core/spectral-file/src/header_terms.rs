@@ -225,7 +225,9 @@ pub(super) fn quantity(text: &str) -> Option<Quantity> {
     }
     // Light that something reflects or transmits is light.
     let passed = begins(&text, "reflected|transmitted") && begins(&text, "radian|irradian|spectral flux|power");
-    let letter = percent_letter(&text).or_else(|| inverse_log(&text));
+    // What stands in brackets was measured: before it, `100%T` may be a sample's name.
+    let measured = text.trim_end().strip_suffix(')').and_then(|text| percent_letter(text.rsplit_once('(')?.1));
+    let letter = measured.or_else(|| percent_letter(&text)).or_else(|| inverse_log(&text));
     let is_named = |(quantity, beginnings, whole): &&(Quantity, &str, &str)| {
         let named = begins(&text, beginnings) || has_word(&text, whole);
         match quantity {

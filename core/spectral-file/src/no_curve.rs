@@ -29,7 +29,7 @@ pub(super) fn leave_out(grid: &mut Grid, log: &mut Log<'_>) {
     if is_own(grid) {
         return;
     }
-    let made = grid.curves.iter().any(|curve| header_terms::role(&curve.label).is_some());
+    let made = grid.curves.iter().any(|curve| !is_blank(curve) && header_terms::role(&curve.label).is_some());
     let marks: Vec<bool> = grid.curves.iter().map(|curve| is_companion(curve, made)).collect();
     let count = marks.iter().filter(|mark| **mark).count();
     if count == grid.curves.len() {
@@ -38,6 +38,31 @@ pub(super) fn leave_out(grid: &mut Grid, log: &mut Log<'_>) {
     let Some(first) = marks.iter().position(|mark| *mark) else { return };
     log.push(Warning::NotSpectra { count, first: grid.curves[first].description() });
     retain(&mut grid.curves, &marks);
+}
+
+/// Removes curves of fewer than two values, unless there are no others: their heads say nothing of the rest.
+pub(super) fn leave_out_blank(grid: &mut Grid, log: &mut Log<'_>) {
+    let marks: Vec<bool> = grid.curves.iter().map(is_blank).collect();
+    if marks.iter().all(|mark| *mark) {
+        return;
+    }
+    let worth_a_word = |curve: &&RawCurve| !curve.label.is_empty() || curve.values.iter().any(|value| !value.is_nan());
+    let left =
+        || grid.curves.iter().zip(&marks).filter(|(_, mark)| **mark).map(|(curve, _)| curve).filter(worth_a_word);
+    let Some(first) = left().next() else { return retain(&mut grid.curves, &marks) };
+    log.push(Warning::EmptyCurves { count: left().count(), first: first.description() });
+    if let Some((line, role)) = grid.header.mentioned
+        && grid.header.line == Some(line)
+        && left().any(|curve| header_terms::role(&curve.label) == Some(role))
+        && !grid.curves.iter().any(|curve| !is_blank(curve) && header_terms::role(&curve.label) == Some(role))
+    {
+        grid.header.mentioned = None;
+    }
+    retain(&mut grid.curves, &marks);
+}
+
+fn is_blank(curve: &RawCurve) -> bool {
+    curve.values.iter().filter(|value| !value.is_nan()).nth(1).is_none()
 }
 
 /// True for the program's own tables, which hold neither numbers for gaps nor columns that are no curves.

@@ -154,6 +154,7 @@ fn finish(
     no_curve::take_sentinels(&mut grid, &mut warnings);
     quantity::suggest_role(&mut grid);
     take_columns_beside(&mut grid, &mut parts, options, &mut warnings);
+    no_curve::leave_out_blank(&mut grid, &mut warnings);
     covariance::prepare(covariance, &mut grid);
     let scale = scale::decide(&grid, options, &mut warnings);
     let quantity = quantity::decide(&grid, &scale.role, &mut warnings);

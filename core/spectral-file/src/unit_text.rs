@@ -16,7 +16,18 @@ pub(super) fn unit(text: &str) -> Option<String> {
     // `R%` is a name with its sign.
     let signed = || Some("%").filter(|_| percent_sign(text).is_some_and(|at| at > 0));
     let behind_slash = || slashed(text).map(|(_, unit)| unit).filter(|unit| is_quotient(unit));
-    bracketed.or_else(signed).or_else(behind_slash).or_else(|| Some(text).filter(|text| is_unit(text))).map(repaired)
+    let behind_name = || named_unit(text).map(|(_, unit)| unit.split(" (").next().unwrap_or(unit));
+    let found = bracketed.or_else(signed).or_else(behind_slash).or_else(behind_name);
+    found.or_else(|| Some(text).filter(|text| is_unit(text))).map(repaired)
+}
+
+/// A name, and the unit of light that follows it without brackets: `Global tilt  W*m-2*nm-1`.
+fn named_unit(text: &str) -> Option<(&str, &str)> {
+    let (name, unit) = text.trim().split_at_checked(units::parse(text.trim())?.start)?;
+    let bare = name.trim_end_matches(|c: char| c.is_whitespace() || c == ',');
+    let counted = lower(unit).starts_with(['p', 'q']);
+    (bare.len() < name.len() && bare.ends_with(char::is_alphanumeric) && !counted && is_quotient(unit))
+        .then_some((bare, unit))
 }
 
 /// The first sign of percent that is a unit: none in a figure such as `50%`, `50 %` or `50_%`, but that of `T8 %`.
@@ -55,6 +66,7 @@ pub(super) fn without_unit(name: &str) -> &str {
     ends.map(|bare| bare.trim_end_matches(['/', ',', ' ']))
         .or_else(|| percent_name(name))
         .or_else(behind_slash)
+        .or_else(|| named_unit(name).filter(|(_, unit)| !unit.contains(" (")).map(|(bare, _)| bare))
         .filter(|bare| !bare.is_empty())
         .unwrap_or(name)
 }

@@ -1,0 +1,42 @@
+//! What a sixth judge found misread in public files, on small files of the same make.
+
+use spectral_file::{Certainty, Quantity, ReadOptions, Role, Source, read};
+
+use super::{names, ok};
+
+#[test]
+fn a_unit_behind_a_name_is_not_its_name() {
+    let rows = "400\t0.5\t0.25\n401\t0.75\t0.5\n402\t0.5\t0.25\n";
+    let table = ok(&format!("Wvlgth nm\tEtr W*m-2*nm-1\tGlobal tilt  W*m-2*nm-1\n{rows}"));
+    assert_eq!(names(&table), ["Etr", "Global tilt"]);
+    assert!(table.curves.iter().all(|curve| curve.unit.as_deref() == Some("W*m-2*nm-1")));
+    assert_eq!((table.role.value, table.reading.quantity.value), (Role::Illuminant, Quantity::Irradiance));
+    let table = ok("Wavelength (nm),Tilted mW*cm-2*nm-1 (1 sun)\n400,0.5\n401,0.75\n402,0.5\n");
+    assert_eq!(table.curves[0].unit.as_deref(), Some("mW*cm-2*nm-1"));
+}
+
+#[test]
+fn the_name_of_a_baseline_is_not_what_was_measured() {
+    let rows = "400,95,400,12\n410,95,410,13\n420,96,420,14\n";
+    let table = ok(&format!("Baseline 100%T,,Leaf one,\nWavelength (nm),%R,Wavelength (nm),%R\n{rows}"));
+    assert_eq!(names(&table), ["Baseline 100%T", "Leaf one"]);
+    assert_eq!((table.role.value, table.role.certainty), (Role::Reflectance, Certainty::Certain));
+    assert_eq!(table.reading.quantity.value, Quantity::Reflectance);
+}
+
+#[test]
+fn fluorescence_is_no_camera_whatever_its_file_is_called() {
+    let text = "TITLE,dye\nDATA TYPE,FLUORESCENCE SPECTRUM\nXUNITS,NANOMETERS\nYUNITS,INTENSITY\nXYDATA\n\
+        400,8.5\n401,9.5\n402,7.5\n";
+    let source = Source { bytes: text.as_bytes(), path: "dye-Response-0.5sec.csv", ..Source::default() };
+    let table = read(source, &ReadOptions::default()).unwrap();
+    assert_eq!((table.role.value, table.role.certainty), (Role::Unknown, Certainty::Open));
+}
+
+#[test]
+fn an_empty_column_says_nothing_of_those_beside_it() {
+    let rows = "400\t1e-9\tNaN\n410\t2e-9\tNaN\n420\t3e-9\tNaN\n";
+    let table = ok(&format!("Wavelength (nm)\tCell Current (A)\tCell EQE\n{rows}"));
+    assert_eq!(names(&table), ["Cell Current (A)"]);
+    assert_eq!((table.role.value, table.role.certainty), (Role::Unknown, Certainty::Open));
+}
