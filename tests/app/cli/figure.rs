@@ -263,7 +263,7 @@ fn a_height_that_rows_do_not_have_is_refused() {
     let done = run(&["figure", "head-to-head", "--height", "50mm", "--out", &out]);
     assert_eq!(done.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&done.stderr).contains("mm high"));
-    let done = run(&["figure", "chromaticity", "--height", "110mm", "--out", &out]);
+    let done = run(&["figure", "chromaticity", "--height", "120mm", "--out", &out]);
     assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
-    assert!(fs::read_to_string(&out).expect("a file").contains("height=\"110"));
+    assert!(fs::read_to_string(&out).expect("a file").contains("height=\"120"));
 }

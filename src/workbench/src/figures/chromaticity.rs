@@ -228,9 +228,9 @@ pub fn figure_sized(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom, size
     let has = |end: &str| figure.panels.iter().flat_map(|panel| &panel.marks).any(|mark| mark.name.ends_with(end));
     let lines =
         if has(", line") { " Large markers on loci tell them apart, at no particular temperature." } else { "" };
-    let tails = if has("tail") { " Thin lines lead to the reference's points." } else { "" };
+    let tails = if has("tail") { " Thin lines: to the reference." } else { "" };
     let has_minima = figure.panels.iter().flat_map(|panel| &panel.marks).any(|mark| mark.name.contains(": minimum at"));
-    let minima = if has_minima { " In the strip below, rings are minima." } else { "" };
+    let minima = if has_minima { " Rings in the strip: minima." } else { "" };
     let beyond = if has(", outside") { " Hollow triangles: points beyond the axes, or at their ends." } else { "" };
     figure.caption =
         format!("{}{lines}{tails}{minima}{beyond}{}", caption(scene), scene.document.exaggeration.sentence());

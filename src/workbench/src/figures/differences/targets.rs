@@ -470,12 +470,16 @@ impl Target<'_> {
         let place = |[u, v]: [f64; 2], anchor, offset| Place { at: self.at([u * radius, v * radius]), anchor, offset };
         let beside = [[1.0, 0.0], [-1.0, 0.0]].map(|to| place(to, Anchor::TOP, [0.0, 2.0]));
         let above = [[0.0, -1.0], [0.0, 1.0]].map(|to| place(to, Anchor::LEFT, [3.0, 0.0]));
-        // Else on the ring, which it interrupts.
-        let sides = [0.5, 0.7, 0.87].into_iter().flat_map(|across: f64| {
+        // Else on the ring, which it interrupts; last within a wide ring's sides.
+        let on = [0.5, 0.7, 0.87].into_iter().flat_map(|across: f64| {
             let up = (1.0 - across * across).sqrt();
             [[across, -up], [-across, -up], [across, up], [-across, up]].map(|to| place(to, Anchor::CENTER, [0.0; 2]))
         });
-        let places = beside.into_iter().chain(above).chain(sides);
+        let sides = [[-0.94, -0.34], [0.94, -0.34], [-0.94, 0.34], [0.94, 0.34]].map(|to| {
+            let (anchor, inward) = if to[0] < 0.0 { (Anchor::LEFT, 9.0) } else { (Anchor::RIGHT, -9.0) };
+            place(to, anchor, [inward, 0.0])
+        });
+        let places = beside.into_iter().chain(above).chain(on).chain(sides);
         let inside = places.filter(|place| self.holds(&words, place)).collect();
         Label::new(words, InkRole::Weak, inside)
     }
