@@ -62,7 +62,8 @@ fn a_region_is_averaged_within_its_bounds() {
     let found = region_mean([3, 2, 4, 3], [8, 6], 9.0, pixel).unwrap();
     assert_eq!((found.mean, found.pixels, found.clipped), ([4.5, 2.0, 9.0], 12, [false, false, true]));
     // Many pixels are taken an odd number apart: as many of each column of a mosaic.
-    let mosaic = |x: usize, _: usize| if x % 2 == 0 { [x as f64, f64::NAN, 1.0] } else { [f64::NAN, 7.0, 1.0] };
+    let mosaic =
+        |x: usize, _: usize| if x.is_multiple_of(2) { [x as f64, f64::NAN, 1.0] } else { [f64::NAN, 7.0, 1.0] };
     let found = region_mean([0, 0, 1000, 1000], [1000, 1000], 1e9, mosaic).unwrap();
     assert!((found.mean[0] - 499.5).abs() < 3.0 && found.mean[1] == 7.0, "{:?}", found.mean);
     assert!((20_000..60_000).contains(&found.pixels), "{}", found.pixels);

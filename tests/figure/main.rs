@@ -365,7 +365,9 @@ fn notes_and_labels_do_not_meet() {
     for (lead, bound) in
         [("whiskers:", "± u"), ("with", "τ = 10 µm"), ("of 14;", "† extrapolated"), ("Canon", "5D III")]
     {
-        let width = text_width(&format!("{lead} {}", bound.rsplit_once(' ').unwrap().0), TextSize::Body) + 1.0;
+        let width =
+            text_width(&format!("{lead} {}", bound.rsplit_once(' ').map_or(bound, |(head, _)| head)), TextSize::Body)
+                + 1.0;
         let room = width.max(text_width(bound, TextSize::Body));
         assert_eq!(wrapped(&format!("{lead} {bound}"), TextSize::Body, room), [lead, bound]);
     }

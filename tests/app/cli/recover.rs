@@ -190,7 +190,7 @@ pub(crate) fn pass_of_pictures(name: &str, number: u32) -> PathBuf {
         let [lit, dark] = ["lit", "dark"].map(|what| format!("{}_{what}_{number}.png", cells[0]));
         picture(&lit, &cells[3..6]);
         picture(&dark, &cells[6..9]);
-        table += &format!("{},{lit},{dark}\n", cells[..3].join(","));
+        table += &[&cells[..3].join(","), ",", &lit, ",", &dark, "\n"].concat();
     }
     let path = folder.join(format!("pass{number}.csv"));
     std::fs::write(&path, table).unwrap();

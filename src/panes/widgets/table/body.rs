@@ -30,10 +30,8 @@ pub(super) struct Body<'a> {
     id: Id,
     /// The first column stays in place.
     sticks: bool,
-    /// A column is cut at the right, or out of sight there.
-    goes_on: bool,
-    /// Rows are out of sight below.
-    has_more: bool,
+    /// Whether a column is cut at the right or out of sight there, and rows are out of sight below.
+    goes_on: [bool; 2],
     /// Air at the right of cells that a narrow table does without.
     spared: f32,
     frozen: bool,
@@ -64,8 +62,7 @@ impl<'a> Body<'a> {
             cursor: look.cursor,
             id: Id::unique(("table", of.id)),
             sticks: false,
-            goes_on: false,
-            has_more: false,
+            goes_on: [false; 2],
             spared: 0.0,
             frozen: false,
             hovered: None,
@@ -149,10 +146,10 @@ impl<'a> Body<'a> {
             table = table.scroll_to_row(row as u64, None);
         }
         table.show(&mut child, self);
-        if self.has_more {
+        if self.goes_on[1] {
             fade(child.painter(), rect, self.theme.panel);
         }
-        if self.goes_on {
+        if self.goes_on[0] {
             let at = egui::pos2(rect.right() - UNIT, rect.top() + 0.5 * self.head_height());
             let stroke = Stroke::new(1.5, self.theme.text);
             let ground = Rect::from_center_size(at, Vec2::new(2.0 * UNIT, HEAD_LINE));
@@ -296,8 +293,7 @@ const SPARE: f32 = 2.0 * UNIT;
 impl TableDelegate for Body<'_> {
     fn prepare(&mut self, seen: &PrefetchInfo) {
         self.frozen = false;
-        self.goes_on = seen.visible_columns.end < self.shown.len();
-        self.has_more = seen.visible_rows.end < self.order.len() as u64;
+        self.goes_on = [seen.visible_columns.end < self.shown.len(), seen.visible_rows.end < self.order.len() as u64];
     }
 
     fn default_row_height(&self) -> f32 {
@@ -325,7 +321,7 @@ impl Body<'_> {
         let index = self.shown[place];
         let (column, layout) = (&self.of.table.columns[index], self.layouts[index]);
         let rect = ui.max_rect();
-        self.goes_on |= rect.right() > ui.clip_rect().right() + UNIT;
+        self.goes_on[0] |= rect.right() > ui.clip_rect().right() + UNIT;
         let sense = if self.of.compact { Sense::hover() } else { Sense::click() };
         let response = ui.interact(rect, self.id.with(("head", index)), sense);
         lines::labeled(&response, Role::ColumnHeader, column.full_name());
@@ -335,7 +331,7 @@ impl Body<'_> {
         }
         let mut place = self.inner(rect);
         let edge = place.right();
-        if self.goes_on {
+        if self.goes_on[0] {
             // The sign that more columns follow stands at the edge.
             place.max.x = place.max.x.min(ui.clip_rect().right() - 3.0 * UNIT);
         }

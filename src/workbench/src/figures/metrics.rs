@@ -198,7 +198,7 @@ fn makers<'a>(named: impl Iterator<Item = (&'a str, &'a str)>) -> String {
     for (full, short) in named.filter(|(full, short)| full != short) {
         let maker = full.split(' ').next().unwrap_or_default();
         match groups.iter_mut().find(|(of, _)| *of == maker) {
-            Some((_, all)) => *all += &format!(", {short}"),
+            Some((_, all)) => *all += &[", ", short].concat(),
             None => groups.push((maker, format!("{maker}: {short}"))),
         }
     }

@@ -315,7 +315,9 @@ impl Problem {
                 let row = &mut hessian[at * size..][..size];
                 let by = weight * slope;
                 row[curve.clone()].iter_mut().zip(&by_curve).for_each(|(sum, other)| *sum += by * other);
-                by_others.iter().for_each(|(other, slope)| row[*other] += by * slope);
+                for (other, slope) in &by_others {
+                    row[*other] += by * slope;
+                }
             }
             let shot = self.shots.iter().position(|shot| shot.contains(&value.patch));
             let Some(mean) = shot.and_then(|shot| of_means.get_mut(shot)) else { continue };

@@ -64,8 +64,8 @@ pub(super) fn run(arguments: &NarrowBandArguments) -> Result<()> {
         SceneError::NarrowBands(error) => in_file(&arguments.files[0], error),
         other => other.into(),
     })?;
-    let taken: String = pictures.iter().map(|(file, taken)| format!("{file}: {taken}\n")).collect();
-    show(&(text(&found) + &taken))?;
+    let taken: Vec<String> = pictures.iter().map(|(file, taken)| format!("{file}: {taken}\n")).collect();
+    show(&(text(&found) + &taken.concat()))?;
     let files: Vec<String> = arguments.files.iter().map(|file| display_path(file)).collect();
     let (count, passes) = (found.curves.wavelengths_nm.len(), files.len());
     let method = format!("raw means of {count} narrow bands, {passes} passes");
