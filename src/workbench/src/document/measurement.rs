@@ -114,12 +114,14 @@ pub struct MeasuredPass {
 }
 
 impl MeasuredPass {
-    /// True for the same table, or for one of its name that differs in nothing but means, such as those of another region.
+    /// True for the same table, or for one of its name that differs in nothing but the region of its pictures that counts.
     pub fn is_again(&self, other: &Self) -> bool {
         let conditions = |of: &Self| -> Vec<[f64; 3]> {
             of.bands.iter().map(|band| [band.wavelength_nm, band.power, band.exposure]).collect()
         };
-        self.contents == other.contents || self.file == other.file && conditions(self) == conditions(other)
+        let have_pictures = self.pictures.is_some() && other.pictures.is_some();
+        self.contents == other.contents
+            || have_pictures && self.file == other.file && conditions(self) == conditions(other)
     }
 }
 
