@@ -76,3 +76,9 @@ pub(crate) fn shape_text(shape: &[usize]) -> String {
 pub(crate) fn array<T: Element>(py: Python<'_>, numbers: Vec<T>, shape: Vec<usize>) -> PyResult<Bound<'_, PyAny>> {
     Ok(PyArray1::from_vec(py, numbers).reshape(shape)?.into_any())
 }
+
+/// An array to be written, in pages as large as the system has them.
+pub(crate) fn empty<T: Element>(py: Python<'_>, shape: Vec<usize>) -> PyResult<Bound<'_, PyArrayDyn<T>>> {
+    let made = py.import("numpy")?.call_method1("empty", (shape, T::get_dtype(py)))?;
+    Ok(made.cast_into::<PyArrayDyn<T>>()?)
+}

@@ -10,11 +10,11 @@ use chromascope_core::spectral::grid::{COUNT, wavelength_nm};
 use chromascope_core::spectral::{GridSpectrum, Primaries, Quantity, Sensor};
 use chromascope_core::units::Kelvin;
 use chromascope_workbench::document::{CIE_1931, SetKind};
-use numpy::{Element, PyUntypedArrayMethods as _};
+use numpy::{Element, PyArrayMethods as _, PyUntypedArrayMethods as _};
 use pyo3::prelude::*;
 use pyo3::types::PyString;
 
-use crate::arrays::{all_finite, apart, array, coordinates, numbers, refused, shape_text, slice};
+use crate::arrays::{all_finite, apart, array, coordinates, empty, numbers, refused, shape_text, slice};
 use crate::sets;
 use crate::spectra::{Spectra, wavelengths_nm};
 
@@ -282,9 +282,10 @@ fn grid_light(given: &Bound<'_, PyAny>) -> PyResult<GridSpectrum> {
 fn curves(wavelengths: &[f64], sensors: &[Sensor], channels: usize, light: Option<&GridSpectrum>) -> Vec<f64> {
     let count = wavelengths.len();
     let mut curves = vec![0.0; channels * count];
+    let mut above = 1;
     for index in 0..COUNT {
         let nm = wavelength_nm(index).clamp(wavelengths[0], wavelengths[count - 1]);
-        let above = wavelengths.partition_point(|known| *known < nm).max(1);
+        above += wavelengths[above..].iter().take_while(|known| **known < nm).count();
         let share = (nm - wavelengths[above - 1]) / (wavelengths[above] - wavelengths[above - 1]);
         let power = light.map_or(1.0, |light| light.values()[index]);
         for (channel, curve) in curves.chunks_exact_mut(count).enumerate() {
@@ -326,18 +327,22 @@ fn product<'py, T: Number>(given: &Bound<'py, PyAny>, length: usize, curves: &[T
     };
     let mut shape = before.to_vec();
     let batch = Batch::new(curves, length).map_err(|error| refused("sensitivities", error))?;
-    let samples = slice(&spectra);
-    let found = apart(given.py(), || {
-        let found = batch.responses(samples).map_err(|error| refused(ARGUMENT, error))?;
-        // A response of zero may stand for one that is not finite: only then are samples looked at.
-        let channels = batch.channels();
-        for (samples, answers) in samples.chunks_exact(length).zip(found.chunks_exact(channels)) {
-            if answers.iter().any(|answer| answer.number() == 0.0) {
-                all_finite(ARGUMENT, &samples.iter().map(|sample| sample.number()).collect::<Vec<_>>())?;
-            }
-        }
-        Ok::<_, PyErr>(found)
-    })??;
     shape.push(batch.channels());
-    array(given.py(), found, shape)
+    let found = empty::<T>(given.py(), shape)?;
+    {
+        let mut places = found.readwrite();
+        let (samples, found) = (slice(&spectra), places.as_slice_mut()?);
+        apart(given.py(), || {
+            batch.responses_into(samples, found).map_err(|error| refused(ARGUMENT, error))?;
+            // A response of zero may stand for one that is not finite: only then are samples looked at.
+            let channels = batch.channels();
+            for (samples, answers) in samples.chunks_exact(length).zip(found.chunks_exact(channels)) {
+                if answers.iter().any(|answer| answer.number() == 0.0) {
+                    all_finite(ARGUMENT, &samples.iter().map(|sample| sample.number()).collect::<Vec<_>>())?;
+                }
+            }
+            Ok::<_, PyErr>(())
+        })??;
+    }
+    Ok(found.into_any())
 }

@@ -53,8 +53,8 @@ pub(super) mod sealed {
 pub(super) const ROWS: usize = 3;
 const COLUMNS: usize = 4;
 
-/// Bytes loaded together.
-const LINE: usize = 64;
+/// Bytes that far spectra are requested ahead of those at hand: as many as arrive while one line does.
+const AHEAD: usize = 1 << 13;
 
 /// One register of each curve of a block. Written out: a loop over the spectra or channels would be turned into one over
 /// scattered numbers.
@@ -95,6 +95,8 @@ macro_rules! way {
                 far: bool,
             ) {
                 let (mut spectra, mut answers) = (spectra, answers);
+                let together = ROWS * length;
+                let between = together * (AHEAD / (together * size_of::<$type>()));
                 while !spectra.is_empty() {
                     let count = (spectra.len() / length).min(ROWS);
                     let (these, rest) = spectra.split_at(count * length);
@@ -107,7 +109,8 @@ macro_rules! way {
                     let [a, b, c] = all;
                     let rows = [a.as_chunks().0, b.as_chunks().0, c.as_chunks().0];
                     let lasts = [Register(last(a)), Register(last(b)), Register(last(c))];
-                    let block = Block { rows, lasts, ahead: if far { rest } else { &[] }, length };
+                    let ahead = if far { rest.get(between..).unwrap_or_default() } else { &[] };
+                    let block = Block { rows, lasts, ahead, length };
                     channels_of(&block, curves, places, channels);
                     (spectra, answers) = (rest, others);
                 }
@@ -117,23 +120,20 @@ macro_rules! way {
             #[$how]
             fn channels_of(spectra: &Block, curves: &[Lanes], answers: &mut [$type], channels: usize) {
                 let registers = curves.len() / channels;
+                // Each block of channels requests its part of spectra further on, evenly: many lines requested at once would
+                // keep those of the spectra at hand waiting.
+                let parts = channels.div_ceil(COLUMNS).min(ROWS);
+                let part = (ROWS * spectra.length).div_ceil(parts);
                 for (block, done) in (0..channels).step_by(COLUMNS).enumerate() {
                     let count = (channels - done).min(COLUMNS);
                     let curves = &curves[done * registers..][..count * registers];
                     let places = &mut answers[done..];
-                    // Each block of channels requests one of the spectra.
-                    let ahead = if block < ROWS { spectra.ahead(block) } else { &[] };
+                    let ahead = spectra.ahead(block * part, part);
                     match count {
                         1 => some::<1>(spectra, curves, places, channels, ahead),
                         2 => some::<2>(spectra, curves, places, channels, ahead),
                         3 => some::<3>(spectra, curves, places, channels, ahead),
                         _ => some::<COLUMNS>(spectra, curves, places, channels, ahead),
-                    }
-                }
-                for row in channels.div_ceil(COLUMNS)..ROWS {
-                    let ahead = spectra.ahead(row);
-                    for i in (0..ahead.len()).step_by(LINE / size_of::<$type>()) {
-                        prefetch_index(ahead, i);
                     }
                 }
             }
@@ -160,9 +160,12 @@ macro_rules! way {
                         step!(sums, [load(&a[i]), load(&b[i]), load(&c[i])], curves, N);
                     }
                 } else {
+                    // At most two lines in each step.
+                    let stride = ahead.len().div_ceil(whole.max(1));
                     for i in 0..whole {
                         let Some(curves) = rest.next() else { break };
-                        prefetch_index(ahead, i * a[i].len());
+                        prefetch_index(ahead, i * stride);
+                        prefetch_index(ahead, i * stride + stride / 2);
                         step!(sums, [load(&a[i]), load(&b[i]), load(&c[i])], curves, N);
                     }
                 }
@@ -195,7 +198,7 @@ macro_rules! kernel {
                 rows: [&'a [[$type; $lanes]]; ROWS],
                 /// Their last ones.
                 lasts: [Lanes; ROWS],
-                /// The spectra after them, if they are far.
+                /// Spectra further on, if they are far.
                 ahead: &'a [$type],
                 length: usize,
             }
@@ -271,10 +274,11 @@ macro_rules! kernel {
             }
 
             impl Block<'_> {
-                /// One of the spectra after these, if it is far.
+                /// So many samples of the spectra further on, if they are far.
                 #[inline]
-                fn ahead(&self, row: usize) -> &[$type] {
-                    self.ahead.get(row * self.length..).map_or(&[], |ahead| &ahead[..self.length.min(ahead.len())])
+                fn ahead(&self, start: usize, count: usize) -> &[$type] {
+                    let ahead = &self.ahead[..self.ahead.len().min(ROWS * self.length)];
+                    ahead.get(start..).map_or(&[], |ahead| &ahead[..count.min(ahead.len())])
                 }
             }
         }
