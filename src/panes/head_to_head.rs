@@ -57,10 +57,11 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     // Gray says it, too.
     table.columns[metrics::BETTER].starts_hidden = body.width() < WITH_BETTER;
     let shown = DataTable::new(PaneKind::HEAD_TO_HEAD, "Head to head", &table).with_quantities();
-    // The table reaches to the pane's edge: a narrow pane shows the first three columns whole.
+    // In a narrow pane the table reaches to its edge, so that the first three columns are shown whole.
+    let reach = if table.columns[metrics::BETTER].starts_hidden { UNIT } else { 0.0 };
     let place = Rect::from_min_max(
-        egui::pos2(body.left() - 1.5 * UNIT, top.min(body.bottom())),
-        body.max + Vec2::new(2.0 * UNIT, 0.0),
+        egui::pos2(body.left() - 1.5 * reach, top.min(body.bottom())),
+        body.max + Vec2::new(2.0 * reach, 0.0),
     );
     let shown = shown.show(ui, place, context);
     if let Some(metric) = shown.activated.and_then(|row| CameraMetric::ALL.get(row)) {

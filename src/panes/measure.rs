@@ -31,11 +31,16 @@ use crate::workspaces::PaneKind;
 
 pub const PANE: Pane = Pane::new(PaneKind::MEASURE, "Measure", show).tab("Measure a camera");
 
-const ABOUT: &str = "Photograph a chart of 24 patches (ColorChecker), evenly lit, slightly underexposed and slightly out of \
-    focus, as a raw file, and drop it here: DNG, a linear 16-bit TIFF or PNG, or OpenEXR. The camera's sensitivities are estimated from \
-    its raw values with those of the library as a prior: good for color, a guess where the band is wide. Of other charts, click the \
-    corners and choose your own reflectances. Or drop tables of narrow bands here, one for each pass, with the columns wavelength_nm, power, \
-    exposure_s, red, green, blue, dark_red, dark_green and dark_blue, or picture and dark_picture in place of these six.";
+const ABOUT: [&str; 3] = [
+    "A raw file as DNG, a linear 16-bit TIFF or PNG, or OpenEXR: the chart evenly lit, slightly underexposed and slightly out of focus. \
+        Raw files of makers (NEF, CR3, ARW and others) are converted to DNG first, with",
+    "The camera's sensitivities are estimated from its raw values with those of the library as a prior: good for color, a guess where \
+        the band is wide. Of other charts, click the corners and choose your own reflectances.",
+    "Narrow bands: drop one table for each pass, with the columns wavelength_nm, power, exposure_s, red, green, blue, dark_red, \
+        dark_green and dark_blue, or picture and dark_picture in place of these six.",
+];
+/// Width of these lines.
+const COLUMN: f32 = 560.0;
 const UNKNOWN: &str = "Daylight of unknown temperature";
 const PICK: f32 = 220.0;
 const NAME: f32 = 220.0;
@@ -89,9 +94,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
         }
         let is_empty = context.scene.document.measurement.shots.is_empty();
         if is_empty && context.view.recorded.photo.is_none() {
-            ui.add(Label::new(ABOUT).wrap());
-            let converted = "Raw files of makers (NEF, CR3, ARW and others) are converted to DNG first, with";
-            ui.add(Label::new(format!("{converted} {CONVERTERS}, both free of charge.")).wrap());
+            about(ui, context);
         }
         picture::show(ui, context);
         if !is_empty {
@@ -102,6 +105,24 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
             results::show(ui, context);
             widgets::note(ui, "The session keeps patches, corners, lights and curves, not the photographs.");
         }
+    });
+}
+
+fn about(ui: &mut Ui, context: &mut PaneContext<'_>) {
+    let [picture, result, bands] = ABOUT;
+    ui.add_space((0.2 * ui.clip_rect().height()).max(UNIT));
+    ui.horizontal(|ui| {
+        ui.add_space((0.5 * (ui.available_width() - COLUMN)).max(0.0));
+        ui.vertical(|ui| {
+            ui.set_max_width(COLUMN);
+            ui.label("Drop a photograph of a ColorChecker here.");
+            ui.add_space(UNIT);
+            context.button(ui, "Open a photograph…", "A picture of a chart, or tables of narrow bands", Command::Open);
+            for words in [&*format!("{picture} {CONVERTERS}, both free of charge."), result, bands] {
+                ui.add_space(UNIT);
+                ui.add(Label::new(RichText::new(words).small()).wrap());
+            }
+        });
     });
 }
 

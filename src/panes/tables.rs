@@ -56,7 +56,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let alone = if names.len() > 1 { "" } else { "There is no other table of this model. " };
     let words = format!("{alone}{} {}", tables::COLUMNS, open.join(" "));
     let body = widgets::lines::foot(ui, body, &words, context);
-    DataTable::new(PANE.kind, "Tables of the model", &turned(&table, &heads)).show(ui, body, context);
+    DataTable::new(PANE.kind, "Tables of the model", &turned(&table, &heads)).with_quantities().show(ui, body, context);
 }
 
 /// What distinguishes a table from others of its model.

@@ -101,6 +101,7 @@ fn shots_of_two_models_are_one_camera_only_by_the_users_word() {
     let document = window.state().history.document();
     assert_eq!((document.own.len(), document.own[0].name.clone()), (1, set.name.clone()));
     assert_ne!(document.own[0].curves, set.curves);
+    assert_eq!(window.state().history.undo_name(), Some(&*format!("Update camera {}", set.name)));
     window.state_mut().push(Command::Undo);
     until(&mut window, "in the library has the curves of before");
     assert_eq!(window.state().history.document().own[0].curves, set.curves, "one step");
@@ -129,7 +130,7 @@ fn a_picture_without_a_chart_is_discarded() {
     let flat = folder().join("flat.png");
     image::ImageBuffer::from_fn(300, 200, |x, _| image::Rgb([9000 + (x as u16), 9000, 8000])).save(&flat).unwrap();
     let mut window = window();
-    assert!(!has(&window, "Photograph a chart") || has(&window, "NEF, CR3, ARW"));
+    assert!(!has(&window, "Drop a photograph") || has(&window, "NEF, CR3, ARW"));
     open(&mut window, flat, "flat.png is not measured yet");
     open(&mut window, picture("beside_flat.png", 12), "Choose the light that beside_flat.png");
     assert!(has(&window, "flat.png is not measured yet"), "beside the others");

@@ -19,6 +19,8 @@ use crate::panes::context::PaneContext;
 use crate::panes::widgets;
 
 const CORNERS: [&str; 4] = ["top left", "top right", "bottom right", "bottom left"];
+/// Of what lies on the picture, whose colors are not the theme's: one of both stands out from any patch.
+const ON_PICTURE: [InkRole; 2] = [InkRole::Rgb([255; 3]), InkRole::Rgb([0; 3])];
 /// Of patches with clipped pixels, which are dashed too.
 const CLIPPED: InkRole = InkRole::Rgb([235, 50, 60]);
 /// Height of the picture relative to that of the pane.
@@ -195,8 +197,12 @@ fn draw(ui: &mut Ui, path: &Path, photo: &ChartPhoto, corners: &[[f64; 2]], cont
     let image = Shape::Image { min: [0.0, height], max: [width, 0.0], image: photo.shown.clone() };
     panel.marks.push(Mark::new(Tag::default(), "picture of the chart", image));
     panel.marks.extend(grid(corners, chart_of(path, photo, context).1, context));
-    let points = Shape::Points { points: corners.to_vec(), marker: Marker::Circle, radius: 5.0 };
-    panel.marks.push(Mark::new(Tag::default(), "corners", points).with_stroke(InkRole::Warning, 2.0));
+    // Rings, through which the corner of the chart is seen.
+    let [ink, halo] = ON_PICTURE;
+    panel.marks.extend([(halo, 5.0), (ink, 2.0)].map(|(ink, width)| {
+        let points = Shape::Points { points: corners.to_vec(), marker: Marker::Circle, radius: 5.0 };
+        Mark::new(Tag::default(), "corners", points).with_stroke(ink, width)
+    }));
     let options = PlotOptions { zoomable: false, reset: context.view.reset_plots, ..PlotOptions::default() };
     let plot = paint::plot(ui, Id::unique(("picture of a chart", path)), &panel, &context.theme, place, options);
     widgets::labeled(&plot.response, egui::Role::Canvas, "Picture of the chart");
@@ -237,11 +243,12 @@ fn grid(corners: &[[f64; 2]], [columns, rows]: [usize; 2], context: &PaneContext
     let outline = |patch: usize| {
         let points = grid.outline(patch).to_vec();
         let clipped = shot.and_then(|shot| shot.patches.get(patch)).is_some_and(|patch| patch.clipped > 0.0);
+        let [ink, halo] = ON_PICTURE;
         let mark = Mark::new(Tag::default(), "patch", Shape::Line { points, closed: true });
         if clipped {
             mark.with_stroke(CLIPPED, 2.0).with_dash(Dash::Dashed)
         } else {
-            mark.with_stroke(InkRole::Warning, 1.0)
+            mark.with_stroke(ink, 1.0).with_halo(halo)
         }
     };
     (0..grid.patches()).map(outline).collect()

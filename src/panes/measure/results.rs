@@ -235,7 +235,8 @@ fn put<T>(
 ) {
     let hint = "As a camera with its uncertainties: it is compared and ranked, and saved from Data in all formats";
     let known = usable.as_ref().ok().and_then(|of| in_library(curves(of), context.scene.document));
-    let words = if known.is_some_and(|(_, is_stale)| is_stale) { UPDATE } else { "Add to the library and compare" };
+    let stale = known.filter(|(_, is_stale)| *is_stale).map(|(set, _)| set.name.clone());
+    let words = if stale.is_some() { UPDATE } else { "Add to the library and compare" };
     let button = ui.add_enabled(usable.is_ok(), Button::new(words));
     let button = button.on_hover_text(hint).on_disabled_hover_text(usable.as_ref().err().map_or(hint, |why| *why));
     if let Some(measured) = usable.ok().filter(|_| button.clicked()) {
@@ -243,9 +244,17 @@ fn put<T>(
         let set = set(&scene.document.measurement, &measured);
         let (document, built_in) = (scene.document, scene.catalog.names().clone());
         let name = document.free_name(SetKind::Camera, &set.name, document.same_set(&set), &built_in);
-        context.push(Action::Imported(ImportedAction::Import { sets: vec![set], built_in }));
+        let (action, said) = match stale {
+            Some(old) => {
+                let what = format!("Update camera {old}");
+                let action = ImportedAction::ReplaceAll { what, with: vec![(old, set)], beside: Vec::new(), built_in };
+                (action, "Updated in your cameras.")
+            }
+            None => (ImportedAction::Import { sets: vec![set], built_in }, "Added to your cameras, and compared."),
+        };
+        context.push(Action::Imported(action));
         context.push(Command::Select(camera(&name)));
-        context.view.say("Added to your cameras, and compared.");
+        context.view.say(said);
     }
 }
 

@@ -237,6 +237,20 @@ fn a_temperature_that_the_light_contradicts_or_the_window_lacks_is_refused() {
 }
 
 #[test]
+fn more_cameras_than_a_figure_shows_are_refused() {
+    let cameras = ["--camera", "Nikon D200", "--camera", "Kodak DCS200", "--camera", "Nikon D3300"];
+    for (kind, arguments, words) in [
+        ("report-card", &cameras[..4], "`report-card` shows one camera, and 2 are named"),
+        ("correction", &["--second-light", "A", cameras[0], cameras[1], cameras[2], cameras[3]], "shows one camera"),
+        ("head-to-head", &cameras, "`head-to-head` shows two cameras, and 3 are named"),
+    ] {
+        let done = run(&[&["figure", kind, "--out", "card.pdf"], arguments].concat());
+        let said = String::from_utf8_lossy(&done.stderr);
+        assert!(done.status.code() == Some(2) && said.contains(words), "{said}");
+    }
+}
+
+#[test]
 fn numbers_are_all_or_those_within_the_axes() {
     let folder = tempfile::tempdir().expect("a folder");
     let rows = |name: &str, arguments: &[&str]| {

@@ -78,8 +78,11 @@ fn no_text_of_a_figure_meets_a_mark_a_text_or_the_edge() {
     let mut found = String::new();
     for (kind, arguments) in KINDS {
         for (width, count) in ["85mm", "174mm"].into_iter().flat_map(|width| [1, 4, 9].map(|count| (width, count))) {
-            // Two cameras at least are compared with each other.
-            let count = if kind == "head-to-head" { count.max(2) } else { count };
+            let count = match kind {
+                "head-to-head" if count == 1 => 2,
+                "head-to-head" | "report-card" | "correction" if count > 1 => continue,
+                _ => count,
+            };
             let cameras = [&long[..]].into_iter().chain(CAMERAS).take(count);
             let sensors: Vec<&str> = cameras.flat_map(|camera| ["--camera", camera]).collect();
             let all = [arguments, &["--width", width], &sensors[..]].concat();

@@ -143,7 +143,12 @@ impl<'a> Body<'a> {
             .num_sticky_cols(usize::from(self.sticks))
             .headers([HeaderRow::new(self.head_height())]);
         if let Some(row) = scroll_to {
-            table = table.scroll_to_row(row as u64, None);
+            // With its neighbors, so that it does not lie below the edge's fade.
+            let row = row as u64;
+            table = table.scroll_to_rows(
+                row.saturating_sub(1)..=(row + 1).min((self.order.len() as u64).saturating_sub(1)),
+                None,
+            );
         }
         table.show(&mut child, self);
         if self.goes_on[1] {

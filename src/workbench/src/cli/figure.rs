@@ -16,7 +16,7 @@ use super::identify::recorded_table;
 use super::outputs::{self, Stop};
 use super::request::{Request, in_file};
 use crate::catalog::recorded::Levels;
-use crate::document::{Document, LOCUS_RANGE_K, session};
+use crate::document::{Document, LOCUS_RANGE_K, SetKind, session};
 use crate::export::{FigureForm, Paper};
 use crate::figures::kind::Need;
 use crate::results::Results;
@@ -62,6 +62,7 @@ fn prepare(request: &mut Request, arguments: &FigureArguments) -> Result<Option<
     if let Some(path) = &arguments.session {
         request.document = opened(request, path)?;
     } else {
+        check_cameras(request, arguments)?;
         let Request { document, sources, .. } = request;
         for (kind, name) in sources.iter() {
             document.compare(name, *kind);
@@ -81,6 +82,17 @@ fn prepare(request: &mut Request, arguments: &FigureArguments) -> Result<Option<
         (Some(path), Some(Need::Curves)) => made::open_curves(request, path).map(|()| None),
         (Some(_), _) => refused("FILE", "only `curves` and `recorded` are of a file"),
     }
+}
+
+/// Refuses more cameras than the figure shows, rather than to leave some out.
+fn check_cameras(request: &Request, arguments: &FigureArguments) -> Result<()> {
+    let Some(kind) = arguments.kind.0.filter(|_| !arguments.common.sources.camera.is_empty()) else { return Ok(()) };
+    let named = request.sources.iter().filter(|(kind, _)| *kind == SetKind::Camera).count();
+    if named <= kind.cameras {
+        return Ok(());
+    }
+    let shown = if kind.cameras == 1 { "one camera" } else { "two cameras" };
+    refused("--camera", format!("`{}` shows {shown}, and {named} are named", kind.key))
 }
 
 /// Chooses the temperature that marks the loci and that locus metrics are of.

@@ -37,7 +37,8 @@ const CURVES: [Curve; 4] = [
 pub static KIND: FigureKind =
     FigureKind::new("correction", "Error of a correction between its two lights; needs a second light", figure)
         .with_scales([|number| 1e6 / kelvins(number), |number| number])
-        .needing(Need::Correction);
+        .needing(Need::Correction)
+        .of_cameras(1);
 
 fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
     let camera = report_card::camera(scene, look.selected.as_ref())?.name;

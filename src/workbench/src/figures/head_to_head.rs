@@ -36,7 +36,9 @@ pub fn pair(ranked: &Ranked, scene: &Scene<'_>, look: &FigureLook) -> [Option<us
 }
 
 pub static KIND: FigureKind =
-    FigureKind::new("head-to-head", "Differences of two cameras in all figures of merit", figure).of_metrics();
+    FigureKind::new("head-to-head", "Differences of two cameras in all figures of merit", figure)
+        .of_metrics()
+        .of_cameras(2);
 
 fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {
     let ranked = scene.ranked(look.cameras);

@@ -20,6 +20,8 @@ pub struct FigureKind {
     pub is_of_metrics: bool,
     /// True if it is part of a report on a comparison.
     pub is_reported: bool,
+    /// The most cameras that it shows.
+    pub cameras: usize,
     /// Places on the axes of numbers that are written there.
     scales: [fn(f64) -> f64; 2],
     draw: Draw,
@@ -41,7 +43,9 @@ pub enum Need {
 
 impl FigureKind {
     pub(super) const fn new(key: &'static str, help: &'static str, draw: Draw) -> Self {
-        Self { key, help, needs: Need::Nothing, is_of_metrics: false, is_reported: false, scales: [|v| v; 2], draw }
+        let scales: [fn(f64) -> f64; 2] = [|number| number; 2];
+        let (needs, cameras) = (Need::Nothing, usize::MAX);
+        Self { key, help, needs, is_of_metrics: false, is_reported: false, cameras, scales, draw }
     }
 
     pub(super) const fn needing(self, needs: Need) -> Self {
@@ -55,6 +59,10 @@ impl FigureKind {
 
     pub(super) const fn of_metrics(self) -> Self {
         Self { is_of_metrics: true, ..self }
+    }
+
+    pub(super) const fn of_cameras(self, cameras: usize) -> Self {
+        Self { cameras, ..self }
     }
 
     pub(super) const fn in_report(self) -> Self {

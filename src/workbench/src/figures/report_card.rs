@@ -51,7 +51,8 @@ pub fn camera(scene: &Scene<'_>, selected: Option<&PlotItem>) -> Option<SensorId
     })
 }
 
-pub static KIND: FigureKind = FigureKind::new("report-card", "All figures of merit of one camera", figure).of_metrics();
+pub static KIND: FigureKind =
+    FigureKind::new("report-card", "All figures of merit of one camera", figure).of_metrics().of_cameras(1);
 
 /// The page of the camera of the card as it is saved; none without a camera that can be shown.
 fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figure> {

@@ -382,9 +382,9 @@ fn chart_columns(count: usize) -> usize {
     if count == 24 { 6 } else { ((count as f64 * 1.5).sqrt().ceil() as usize).max(1) }
 }
 
-/// Number of charts side by side, and the size of a swatch with its note: the largest that fits and fills the area, neither
-/// side longer than twice the other, with numbers above the bars or without where only so all fit, else the least high, and the
-/// charts scroll.
+/// Number of charts side by side, and the size of a swatch with its note: the largest that fits and fills the area, at most
+/// twice as wide as high and 2.6 times as high as wide, with numbers above the bars or without where only so all fit, else
+/// the least high, and the charts scroll.
 fn chart_cell(charts: usize, columns: usize, lines: usize, size: [f64; 2], least: [f64; 2]) -> (usize, [f64; 2]) {
     let narrow = (least[0] - 4.0 - LEAST_TRACK).max(LEAST_ABOVE.min(least[0]));
     let above = [narrow, LEAST_COLOR + Note::Above.height()];
@@ -412,7 +412,7 @@ fn largest_cell(
         let down = charts.div_ceil(across).max(1);
         let width = (size[0] - MARGIN * (2.0 * across as f64)) / across as f64 / columns as f64 - GAP / 2.0;
         let height = ((size[1] - MARGIN * (1.0 + down as f64)) / down as f64 - HEAD) / lines as f64 - GAP / 2.0;
-        let cell = [width.min(2.0 * height), height.min((2.0 * width).max(least[1]))];
+        let cell = [width.min(2.0 * height), height.min((2.6 * width).max(least[1]))];
         let fits = cell[0] >= least[0] && cell[1] >= least[1];
         // A place that were empty counts as what it takes from the others.
         let merit = |across: usize, cell: [f64; 2]| cell[0].min(cell[1]) * filled(charts, across);
