@@ -236,7 +236,13 @@ pub(super) fn quantity(text: &str) -> Option<Quantity> {
             _ => named,
         }
     };
-    QUANTITIES.iter().find(is_named).map(|(quantity, ..)| *quantity)
+    let mut named = QUANTITIES.iter().filter(is_named).map(|(quantity, ..)| *quantity);
+    let first = named.next();
+    // Either of two, as in `EQE (or reflectance)`.
+    let is_fraction = |quantity: Quantity| matches!(quantity, Quantity::QuantumEfficiency | Quantity::Absorptance);
+    let is_either =
+        first.is_some_and(is_fraction) && has_word(&text, "or") && named.any(|other| other != Quantity::Unknown);
+    first.filter(|_| !is_either)
 }
 
 pub(super) fn role(text: &str) -> Option<Role> {
