@@ -87,12 +87,12 @@ macro_rules! way {
             use super::*;
             use crate::camera::batch::kernel::ways::$type::$way::{fuse, load, totals, zero};
 
+            /// Far and near spectra have loops of their own: in one function both would keep fewer pointers in registers.
             #[$how]
-            pub(in super::super) fn multiply(
+            pub(in super::super) fn multiply<const FAR: bool>(
                 (spectra, length): (&[$type], usize),
                 curves: &[Lanes],
                 (answers, channels): (&mut [$type], usize),
-                far: bool,
             ) {
                 let (mut spectra, mut answers) = (spectra, answers);
                 let together = ROWS * length;
@@ -109,16 +109,16 @@ macro_rules! way {
                     let [a, b, c] = all;
                     let rows = [a.as_chunks().0, b.as_chunks().0, c.as_chunks().0];
                     let lasts = [Register(last(a)), Register(last(b)), Register(last(c))];
-                    let ahead = if far { rest.get(between..).unwrap_or_default() } else { &[] };
+                    let ahead = if FAR { rest.get(between..).unwrap_or_default() } else { &[] };
                     let block = Block { rows, lasts, ahead, length };
-                    channels_of(&block, curves, places, channels);
+                    channels_of::<FAR>(&block, curves, places, channels);
                     (spectra, answers) = (rest, others);
                 }
             }
 
             /// The responses of all channels.
             #[$how]
-            fn channels_of(spectra: &Block, curves: &[Lanes], answers: &mut [$type], channels: usize) {
+            fn channels_of<const FAR: bool>(spectra: &Block, curves: &[Lanes], answers: &mut [$type], channels: usize) {
                 let registers = curves.len() / channels;
                 // Each block of channels requests its part of spectra further on, evenly: many lines requested at once would
                 // keep those of the spectra at hand waiting.
@@ -130,17 +130,18 @@ macro_rules! way {
                     let places = &mut answers[done..];
                     let ahead = spectra.ahead(block * part, part);
                     match count {
-                        1 => some::<1>(spectra, curves, places, channels, ahead),
-                        2 => some::<2>(spectra, curves, places, channels, ahead),
-                        3 => some::<3>(spectra, curves, places, channels, ahead),
-                        _ => some::<COLUMNS>(spectra, curves, places, channels, ahead),
+                        1 => some::<1, FAR>(spectra, curves, places, channels, ahead),
+                        2 => some::<2, FAR>(spectra, curves, places, channels, ahead),
+                        3 => some::<3, FAR>(spectra, curves, places, channels, ahead),
+                        _ => some::<COLUMNS, FAR>(spectra, curves, places, channels, ahead),
                     }
                 }
             }
 
-            /// The responses of N channels; those of each spectrum are `stride` places further on.
+            /// The responses of N channels; those of each spectrum are `stride` places further on. Where they are far, those ahead are
+            /// requested, at most two lines in each step.
             #[$how]
-            fn some<const N: usize>(
+            fn some<const N: usize, const FAR: bool>(
                 spectra: &Block,
                 curves: &[Lanes],
                 places: &mut [$type],
@@ -154,20 +155,14 @@ macro_rules! way {
                 let (a, b, c) = (&a[..whole], &b[..whole], &c[..whole]);
                 // With a pointer of its own: by index it would be recomputed in each step.
                 let mut rest = curves.iter();
-                if ahead.is_empty() {
-                    for i in 0..whole {
-                        let Some(curves) = rest.next() else { break };
-                        step!(sums, [load(&a[i]), load(&b[i]), load(&c[i])], curves, N);
+                let between = if FAR { ahead.len().div_ceil(whole.max(1)) } else { 0 };
+                for i in 0..whole {
+                    let Some(curves) = rest.next() else { break };
+                    if FAR {
+                        prefetch_index(ahead, i * between);
+                        prefetch_index(ahead, i * between + between / 2);
                     }
-                } else {
-                    // At most two lines in each step.
-                    let stride = ahead.len().div_ceil(whole.max(1));
-                    for i in 0..whole {
-                        let Some(curves) = rest.next() else { break };
-                        prefetch_index(ahead, i * stride);
-                        prefetch_index(ahead, i * stride + stride / 2);
-                        step!(sums, [load(&a[i]), load(&b[i]), load(&c[i])], curves, N);
-                    }
+                    step!(sums, [load(&a[i]), load(&b[i]), load(&c[i])], curves, N);
                 }
                 if let Some(curves) = rest.next() {
                     let [a, b, c] = &spectra.lasts;
@@ -253,8 +248,16 @@ macro_rules! kernel {
                 far: bool,
             ) {
                 match_target! {
-                    "x86_64+avx2+fma" => avx2::multiply(spectra, curves, answers, far),
-                    _ => portable::multiply(spectra, curves, answers, far),
+                    "x86_64+avx2+fma" => if far {
+                        avx2::multiply::<true>(spectra, curves, answers);
+                    } else {
+                        avx2::multiply::<false>(spectra, curves, answers);
+                    },
+                    _ => if far {
+                        portable::multiply::<true>(spectra, curves, answers);
+                    } else {
+                        portable::multiply::<false>(spectra, curves, answers);
+                    },
                 }
             }
 
@@ -306,9 +309,9 @@ mod tests {
             let packed = <f64 as Kernel>::pack(&curves, length);
             let mut answers = vec![0.0; count * channels];
             <f64 as Kernel>::multiply(&spectra, length, &packed, &mut answers, channels, false);
-            for far in [false, true] {
+            for multiply in [f64::portable::multiply::<false>, f64::portable::multiply::<true>] {
                 let mut others = vec![0.0; count * channels];
-                f64::portable::multiply((&spectra, length), &packed, (&mut others, channels), far);
+                multiply((&spectra, length), &packed, (&mut others, channels));
                 assert_eq!(answers, others);
             }
             let narrow = |values: &[f64]| -> Vec<f32> { values.iter().map(|&v| v as f32).collect() };
@@ -316,7 +319,7 @@ mod tests {
             let mut answers = vec![0.0; count * channels];
             <f32 as Kernel>::multiply(&spectra, length, &packed, &mut answers, channels, true);
             let mut others = vec![0.0; count * channels];
-            f32::portable::multiply((&spectra, length), &packed, (&mut others, channels), false);
+            f32::portable::multiply::<false>((&spectra, length), &packed, (&mut others, channels));
             assert_eq!(answers, others);
         }
     }
