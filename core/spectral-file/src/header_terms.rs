@@ -239,9 +239,9 @@ pub(super) fn quantity(text: &str) -> Option<Quantity> {
     let mut named = QUANTITIES.iter().filter(is_named).map(|(quantity, ..)| *quantity);
     let first = named.next();
     // Either of two, as in `EQE (or reflectance)`.
-    let is_fraction = |quantity: Quantity| matches!(quantity, Quantity::QuantumEfficiency | Quantity::Absorptance);
-    let is_either =
-        first.is_some_and(is_fraction) && has_word(&text, "or") && named.any(|other| other != Quantity::Unknown);
+    let is_response = |of: Quantity| matches!(of, Quantity::QuantumEfficiency | Quantity::Absorptance);
+    let is_of_surface = |of: Quantity| matches!(of, Quantity::Reflectance | Quantity::Transmittance);
+    let is_either = first.is_some_and(is_response) && has_word(&text, "or") && named.any(is_of_surface);
     first.filter(|_| !is_either)
 }
 

@@ -45,6 +45,6 @@ fn an_empty_column_says_nothing_of_those_beside_it() {
 fn either_of_two_quantities_is_asked_for() {
     let table = ok("wavelength (nm),EQE (or reflectance)\n400,0.5\n410,0.75\n420,0.5\n");
     assert_eq!((table.role.value, table.role.certainty), (Role::Unknown, Certainty::Open));
-    let table = ok("wavelength (nm),EQE\n400,0.5\n410,0.75\n420,0.5\n");
+    let table = ok("wavelength (nm),absolute or relative EQE\n400,0.5\n410,0.75\n420,0.5\n");
     assert_ne!(table.role.value, Role::Unknown);
 }

@@ -155,12 +155,12 @@ macro_rules! way {
                 let (a, b, c) = (&a[..whole], &b[..whole], &c[..whole]);
                 // With a pointer of its own: by index it would be recomputed in each step.
                 let mut rest = curves.iter();
-                let between = if FAR { ahead.len().div_ceil(whole.max(1)) } else { 0 };
+                let pace = if FAR { ahead.len().div_ceil(whole.max(1)) } else { 0 };
                 for i in 0..whole {
                     let Some(curves) = rest.next() else { break };
                     if FAR {
-                        prefetch_index(ahead, i * between);
-                        prefetch_index(ahead, i * between + between / 2);
+                        prefetch_index(ahead, i * pace);
+                        prefetch_index(ahead, i * pace + pace / 2);
                     }
                     step!(sums, [load(&a[i]), load(&b[i]), load(&c[i])], curves, N);
                 }
