@@ -105,6 +105,21 @@ def tristimulus():
          ("colour", other, relative(np.asarray(theirs)[:100] * integral, exact)), 10)
 
 
+def tristimulus_of_objects():
+    """Colour's own call as it is documented, on its own objects, which both take."""
+    nm = np.arange(380, 781)
+    spectra = colour.MultiSpectralDistributions(GENERATOR.random((nm.size, 200)), nm)
+    observer = colour.MSDS_CMFS["CIE 1931 2 Degree Standard Observer"].copy().align(colour.SpectralShape(380, 780, 1))
+    integral = observer.values[:, 1].sum() / 100
+    own, found = timed(
+        lambda: cs.responses(spectra.values.T, spectra.wavelengths, observer, quantity="matching-functions"))
+    other, theirs = timed(lambda: colour.msds_to_XYZ(spectra, observer))
+    exact = spectra.values.T.astype(np.longdouble)[:, None, :] * observer.values.T
+    exact = exact.sum(-1) - (exact[..., 0] + exact[..., -1]) / 2
+    told("XYZ of 200 of colour's spectra", (own, relative(found, exact)),
+         ("colour", other, relative(np.asarray(theirs) * integral, exact)), 10)
+
+
 def products(kind):
     nm = np.arange(380, 781, 5)
     spectra = GENERATOR.random((1_000_000, nm.size), kind)
@@ -124,5 +139,6 @@ if __name__ == "__main__":
     differences()
     temperatures()
     tristimulus()
+    tristimulus_of_objects()
     products(np.float64)
     products(np.float32)
