@@ -166,8 +166,8 @@ pub struct ChartRecovery {
 impl ChartRecovery {
     /// Recovers curves from shots of one camera, with the tables of a library as prior.
     ///
-    /// Without the camera's maker in the library, with noise of 1 % and even light, a channel's median error is 7.1 % under D65 (4.5 % with
-    /// other cameras of the maker); brightnesses that differ cost 1 %. See `tests/core/recovery.rs`.
+    /// Without the camera's maker in the library, with noise of 1 % and even light, a channel's median error is 7.1 to 7.4 % under D65, by the draw
+    /// of the noise (4.5 to 4.9 % with other cameras of the maker); brightnesses that differ cost 1 %. See `tests/core/recovery.rs`.
     ///
     /// # Errors
     /// [`RecoveryError`] with the reason.
