@@ -131,15 +131,16 @@ pub fn among(matrix: &[f64], size: usize, rows: &[usize], columns: &[usize]) -> 
 /// (Júdice and Pires 1994), and only the last of them where that does not settle. The search begins with those held that are at a bound
 /// in `near`, a point nearby, if any.
 ///
-/// None unless A is positive definite, or after 200 exchanges.
+/// The single exchanges end where fewer violate than ever before. None unless A is positive definite, or after 1000 exchanges.
 pub fn bounded_minimum(a: &[f64], g: &[f64], bounds: &[[f64; 2]], near: Option<&[f64]>) -> Option<Vec<f64>> {
     const ALL_AT_ONCE: usize = 20;
-    const MOST: usize = 200;
+    const MOST: usize = 1000;
     let size = g.len();
     let at_bound =
         |x: &[f64]| x.iter().zip(bounds).map(|(x, bounds)| bounds.iter().copied().find(|at| at == x)).collect();
     let mut held: Vec<Option<f64>> = near.map_or_else(|| vec![None; size], at_bound);
-    for round in 0..MOST {
+    let (mut fewest, mut tries) = (usize::MAX, ALL_AT_ONCE);
+    for _ in 0..MOST {
         let free: Vec<usize> = (0..size).filter(|at| held[*at].is_none()).collect();
         let mut x: Vec<f64> = held.iter().map(|at| at.unwrap_or(0.0)).collect();
         let pull = times(a, &x);
@@ -161,7 +162,11 @@ pub fn bounded_minimum(a: &[f64], g: &[f64], bounds: &[[f64; 2]], near: Option<&
         if changes.is_empty() {
             return Some(x);
         }
-        let from = if round < ALL_AT_ONCE { 0 } else { changes.len() - 1 };
+        if changes.len() < fewest {
+            (fewest, tries) = (changes.len(), ALL_AT_ONCE);
+        }
+        let from = if tries > 0 { 0 } else { changes.len() - 1 };
+        tries = tries.saturating_sub(1);
         changes[from..].iter().for_each(|(at, to)| held[*at] = *to);
     }
     None

@@ -133,6 +133,18 @@ fn unknown_cameras_are_recovered_within_their_uncertainties() {
     assert!(two < one && inside > 0.95, "{two} {inside}");
 }
 
+/// A recording for which the search of the curves that are zero somewhere went round in circles.
+#[test]
+fn bounds_are_found_however_far_the_start_is_from_them() {
+    let cameras = cameras();
+    let place = cameras.iter().position(|(name, _)| name == "canon_eos_10d_2007_figure").unwrap();
+    let (name, sensor) = &cameras[place];
+    let library = library_without(&cameras, |other| maker(other) == maker(name));
+    let recorded = shot(sensor, &light(D65), EVEN, &mut SplitMix64::new(place as u64 + 1000));
+    let found = ChartRecovery::new(&library, &[recorded]).unwrap();
+    assert!((found.noise_ratio - 1.0).abs() < 0.5, "{}", found.noise_ratio);
+}
+
 /// A chart of another edition (in residuals up to twice the stated noise) and a measured daylight named as D65.
 #[test]
 fn uncertainties_hold_where_chart_and_light_are_not_those_named() {
