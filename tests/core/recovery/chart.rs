@@ -120,15 +120,14 @@ fn table_of_hold_outs() {
     }
 }
 
-/// Limits are what was reached when this was written, rounded up: 4.5 and 7.1 %, 99 and 97 % inside. Other
-/// draws of the noise give up to 4.9 and 7.4 %.
+/// Reached when this was written: 4.2 and 6.8 %, 99 and 96 % inside. Seven other draws of the noise give up to 4.5 and 6.9 %.
 #[test]
 fn unknown_cameras_are_recovered_within_their_uncertainties() {
     let [median, _, inside, better, ratio] = summary(&hold_out(&[D65], EVEN, false));
-    assert!(median < 0.046 && inside > 0.97 && better >= 0.9, "{median} {inside} {better}");
+    assert!(median < 0.045 && inside > 0.97 && better >= 0.9, "{median} {inside} {better}");
     assert!((ratio - 1.0).abs() < 0.05, "{ratio}");
     let [one, tenth, inside, better, _] = summary(&hold_out(&[D65], EVEN, true));
-    assert!(one < 0.072 && tenth < 0.125 && inside > 0.95 && better >= 0.9, "{one} {tenth} {inside} {better}");
+    assert!(one < 0.07 && tenth < 0.125 && inside > 0.95 && better >= 0.9, "{one} {tenth} {inside} {better}");
     let [two, _, inside, ..] = summary(&hold_out(&[D65, A], EVEN, true));
     assert!(two < one && inside > 0.95, "{two} {inside}");
 }
@@ -167,7 +166,7 @@ fn cameras_unlike_the_library_are_found() {
             of(name).inside
         );
     }
-    let like = scores.iter().filter(|score| score.unlikeness < 1.0).count();
+    let like = scores.iter().filter(|score| score.unlikeness < 1.2).count();
     assert!(like as f64 > 0.85 * scores.len() as f64, "{like}");
 }
 
@@ -241,7 +240,7 @@ fn fall_off(at: usize) -> f64 {
     1.0 + 0.08 * ((at % 6) as f64 / 5.0 + (at / 6) as f64 / 3.0 - 1.0)
 }
 
-/// As it is 3.0 %, with a gray frame 3.0 % (5.6 and 5.9 % without the maker); the patches are known to 0.2 %. So no gray frame is asked for.
+/// As it is 2.7 %, with a gray frame 2.7 % (5.1 and 5.2 % without the maker); the patches are known to 0.2 %. So no gray frame is asked for.
 #[test]
 fn light_that_falls_off_costs_no_more_than_a_gray_frame_would_save() {
     for by_maker in [false, true] {

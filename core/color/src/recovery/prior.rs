@@ -7,11 +7,13 @@ use crate::spectral::grid::{COUNT, FIRST_NM, LAST_NM};
 use crate::units::{bits, hash_by};
 
 /// Shift of each table's wavelengths, either way, in nanometers: the error of a wavelength scale, and filters unlike any of the library.
-const SHIFT_NM: f64 = 4.0;
+const SHIFT_NM: f64 = 3.0;
 /// Factor of the tables' covariance, by which intervals hold for cameras of other laboratories.
 const WIDENED: f64 = 2.0;
+/// Factor of it between channels: in so few tables, channels vary together by chance too, and by the habits of makers.
+const BETWEEN: f64 = 0.5;
 /// Standard deviation of the smooth term relative to the peak, and its correlation length in nanometers.
-const SMOOTH: f64 = 0.05;
+const SMOOTH: f64 = 0.03;
 const SMOOTH_NM: f64 = 20.0;
 /// Standard deviation of what neighbors do not share, relative to the peak.
 const ROUGH: f64 = 1e-3;
@@ -106,9 +108,10 @@ impl Library {
     /// Without any errors all count alike.
     ///
     /// ```text
-    /// Σ = 2 Σ_tables + (0.05 p)² exp(−Δλ² / 2 (20 nm)²) + (0.001 p)² I
+    /// Σ = 2 Σ_tables + (0.03 p)² exp(−Δλ² / 2 (20 nm)²) + (0.001 p)² I
     /// ```
-    /// p = peak of the mean of a channel; each table as it is and shifted by ±4 nm; conditioned on a sum of 1.
+    /// p = peak of the mean of a channel; each table as it is and shifted by ±3 nm; half of `Σ_tables` between channels; conditioned on
+    /// a sum of 1.
     pub fn prior(&self, misfits: &[Option<f64>]) -> Prior {
         let weight = |misfit: &Option<f64>| misfit.map_or(0.0, |e| (e * e + TABLE_ERROR * TABLE_ERROR).powf(-1.5));
         let of = |table: usize| misfits.get(table).map_or(1.0, weight);
@@ -131,9 +134,14 @@ impl Library {
                 row.iter_mut().zip(&off).for_each(|(value, other)| *value += WIDENED * weight * by * other);
             }
         }
+        let count = self.wavelengths_nm.len();
+        for (at, value) in covariance.iter_mut().enumerate() {
+            if at / size / count != at % size / count {
+                *value *= BETWEEN;
+            }
+        }
         self.add_smooth(&mean, &mut covariance);
         let mut prior = Prior { mean, covariance };
-        let count = self.wavelengths_nm.len();
         for c in 0..3 {
             let sum: Vec<f64> = (0..size).map(|at| f64::from(u8::from(at / count == c))).collect();
             prior.condition(&sum, 1.0, SUM * SUM);
