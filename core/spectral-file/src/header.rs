@@ -125,6 +125,10 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
         let united = |names: &str| names.ends_with([')', ']']);
         let text = body.unwrap_or(line);
         header.raman |= has_word(&lower(text), "raman");
+        // The database's spectra are over Raman shifts, wave numbers of the infrared or angles.
+        if text.contains("rruff.info") {
+            header.x_unit = Some((number, XUnit::Other));
+        }
         if named_above.is_none() && (layout.width > 2 || united(text)) {
             let names = names::split_otherwise(layout, text).filter(|names| layout.width > 2 || united(&names[0]));
             named_above = names.map(|names| (number, names));

@@ -15,6 +15,17 @@ pub(super) fn names_axis(text: &str) -> bool {
     (names_wavelengths(text) || energies) && (!of_values() || ends_with_wavelengths(text))
 }
 
+/// Returns whether text is a sign of YAML or a rule, and no name.
+pub(super) fn is_sign(text: &str) -> bool {
+    text.bytes().all(|byte| b"|>-_=:".contains(&byte))
+}
+
+/// Returns whether a name is only `x`, or `x1`, `x_2`.
+pub(super) fn is_x(name: &str) -> bool {
+    let rest = name.strip_prefix(['x', 'X']);
+    rest.is_some_and(|rest| rest.trim_start_matches('_').bytes().all(|byte| byte.is_ascii_digit()))
+}
+
 /// Returns whether a name is that of wavelengths with one word before it at most, units aside: those at which light is emitted.
 pub(super) fn ends_with_wavelengths(text: &str) -> bool {
     let lower = lower(text);

@@ -48,3 +48,42 @@ fn either_of_two_quantities_is_asked_for() {
     let table = ok("wavelength (nm),absolute or relative EQE\n400,0.5\n410,0.75\n420,0.5\n");
     assert_ne!(table.role.value, Role::Unknown);
 }
+
+/// As digitizers of plots write: names above their x, and x and y below.
+#[test]
+fn names_stand_above_x_and_y() {
+    let rows = "400,0.1,401,0.2,402,0.7\n450,0.2,451,0.6,452,0.9\n500,0.5,501,0.9,502,0.3\n600,0.9,601,0.3,,\n";
+    let table = ok(&format!("Red,,Green,,Blue,\nX,Y,X,Y,X,Y\n{rows}"));
+    assert_eq!(names(&table), ["Red", "Green", "Blue"]);
+    assert_eq!((table.role.value, table.role.certainty), (Role::Camera, Certainty::Guess));
+    assert!(table.curves.iter().all(|curve| curve.unit.is_none()));
+    let samples: Vec<usize> = table.curves.iter().map(|curve| curve.wavelengths_nm.len() - curve.missing).collect();
+    assert_eq!(samples, [4, 4, 3]);
+}
+
+#[test]
+fn numbered_x_and_y_are_pairs() {
+    let table = ok("x1,y1,x2,y2\n400,0.1,401,0.2\n450,0.2,451,0.6\n500,0.5,501,0.9\n550,0.4,551,0.8\n");
+    assert_eq!(names(&table), ["y1", "y2"]);
+}
+
+#[test]
+fn intensities_of_red_green_and_blue_are_asked_for() {
+    let rows = "1,400,0.5,1.5,2.5\n2,450,1.5,0.5,0.5\n3,500,1.5,2.5,0.5\n";
+    let table = ok(&format!("Pixel,Wavelength,Red Intensity,Green Intensity,Blue Intensity\n{rows}"));
+    assert_eq!((table.role.value, table.role.certainty), (Role::Unknown, Certainty::Open));
+}
+
+#[test]
+fn the_phase_of_an_amplifier_is_no_spectrum() {
+    let rows = "400\t0.5\t117.8\n410\t0.6\t-149.7\n420\t0.7\t12.5\n";
+    let table = ok(&format!("Wavelength (nm)\tSignal\tTheta Device (lock-in)\n{rows}"));
+    assert_eq!(names(&table), ["Signal"]);
+}
+
+#[test]
+fn minerals_of_rruff_are_over_no_wavelengths() {
+    let text = "##NAMES=Quartz\n##URL=rruff.info/R040031\n150.5, 10.5\n151.5, 12.5\n152.5, 11.5\n##END=\n";
+    let error = read(text.as_bytes(), &ReadOptions::default()).unwrap_err();
+    assert!(error.to_string().starts_with("line 2: the header gives neither wavelengths"), "{error}");
+}

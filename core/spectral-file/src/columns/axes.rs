@@ -148,11 +148,11 @@ fn runs_like_axis(header: &Header, [first, column]: [usize; 2], wavelengths: &[f
     plausible && (name.is_some_and(header_terms::begins_with_wavelengths) || overlaps())
 }
 
-/// Returns whether a column is unnamed, or its name is that of the first wavelengths, or only x.
+/// Returns whether a column is unnamed, or its name is that of the first wavelengths, or only x, with a number or not.
 fn is_open(header: &Header, at: usize, column: usize) -> bool {
     let unit = |column: usize| header.units.get(column).map(String::as_str).filter(|unit| !unit.is_empty());
     let name = header.name(column);
-    let open = name.is_none_or(|name| header.name(at) == Some(name) || name.eq_ignore_ascii_case("x"));
+    let open = name.is_none_or(|name| header.name(at) == Some(name) || header_terms::is_x(name));
     open && unit(column).is_none_or(|own| unit(at) == Some(own))
 }
 

@@ -98,13 +98,14 @@ impl Header {
     }
 
     /// Takes the names of samples from the line above one that only says what was measured, `Wavelength (nm),%T,Wavelength (nm),%T`:
-    /// each above its values, or above its wavelengths.
+    /// each above its values, or above its wavelengths; also from above `X,Y,X,Y`, as digitizers of plots write.
     fn take_samples(&mut self, above: Option<&(usize, &str)>, first: bool, layout: &Layout) {
         let Some(&(number, line)) = above.filter(|(_, line)| comment(line).is_none()) else { return };
         let cells = split(layout.dialect(), line);
         let is_axis = |column: usize| {
             let own = self.names.get(column).filter(|name| !name.is_empty());
-            own.or(cells.get(column)).is_some_and(|name| header_terms::names_axis(name))
+            let is_axis = |name: &String| header_terms::names_axis(name) || header_terms::is_x(name);
+            own.or(cells.get(column)).is_some_and(is_axis)
         };
         let columns: Vec<usize> =
             (0..self.names.len()).filter(|&column| is_axis(column) || !self.names[column].is_empty()).collect();
@@ -113,7 +114,9 @@ impl Header {
         let statistics = values.iter().filter(is_statistic).count();
         // Nor does one name of all.
         let alike = values.len() > 1 && values.iter().all(|&column| self.names[column] == self.names[values[0]]);
-        let measure = |column: &usize| alike || is_statistic(&column) || says_only_measure(&self.names[*column]);
+        let digitized = |name: &str| header_terms::is_x(&self.names[0]) && name.eq_ignore_ascii_case("y");
+        let says_nothing = |name: &str| says_only_measure(name) || digitized(name);
+        let measure = |column: &usize| alike || is_statistic(&column) || says_nothing(&self.names[*column]);
         if axes.is_empty() || values.is_empty() || !values.iter().all(measure) {
             return;
         }
@@ -157,7 +160,7 @@ impl Header {
             let own = std::mem::take(&mut self.names[column]);
             let uncertain = uncertainty_terms::term(unit_text::without_unit(&own), &own).is_some();
             self.names[column] = if uncertain { format!("{name} {own}") } else { name.to_owned() };
-            self.units[column] = if uncertain { String::new() } else { own };
+            self.units[column] = if uncertain || own.eq_ignore_ascii_case("y") { String::new() } else { own };
         }
     }
 

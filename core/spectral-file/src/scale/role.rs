@@ -37,7 +37,11 @@ fn stated(grid: &Grid) -> Option<Decided<Role>> {
         // Primaries of displays are called R, G and B too.
         let named = |wanted: &str| names.iter().any(|name| name.eq_ignore_ascii_case(wanted));
         let said = letters && !named("r");
-        if named("w") || named("white") {
+        // Of pictures; sensitivities are called by another name.
+        let intensities = grid.curves.iter().all(|curve| curve.label.to_lowercase().contains("intensity"));
+        if intensities {
+            Decided::open(Role::Unknown, format!("{why}: values of pictures are called so too"))
+        } else if named("w") || named("white") {
             Decided::guess(Role::Illuminant, format!("{why}, as a display's white and its primaries are"))
         } else if said {
             Decided::certain(Role::Camera, why)

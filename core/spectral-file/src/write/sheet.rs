@@ -308,7 +308,7 @@ fn name<'a>(text: &'a str, index: usize, content: Content<'_>) -> Cow<'a, str> {
     if misleads(&name, content) {
         name = Cow::Owned(unit_text::without_percent_signs(&name));
     }
-    let bad = name.is_empty() || heads_wavelengths(&name) || misleads(&name, content);
+    let bad = header_terms::is_sign(&name) || heads_wavelengths(&name) || misleads(&name, content);
     if bad { Cow::Owned(format!("Curve {}", index + 1)) } else { name }
 }
 
