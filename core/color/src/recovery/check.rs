@@ -27,6 +27,7 @@ pub fn left_out(
 ) -> Result<Vec<(String, Option<f64>)>, RecoveryError> {
     let Some(first) = shots.first() else { return Ok(Vec::new()) };
     let count = first.patches.len();
+    let (_, whole) = ChartRecovery::found(library, shots, None)?;
     let some = |start: usize| {
         let omitted: Vec<usize> = (start..count).step_by(MOST).collect();
         let is_omitted = |name: &str| omitted.iter().any(|at| first.patches[*at].name == *name);
@@ -36,8 +37,8 @@ pub fn left_out(
             own.for_each(|patch| patch.rgb = [Signal::new(f64::NAN, f64::INFINITY); 3]);
             shot
         };
-        let recovery = ChartRecovery::new(library, &shots.iter().map(without).collect::<Vec<_>>())?;
-        let sensor = recovery.curves.sensor().map_err(|_| RecoveryError::NoPrior)?;
+        let recovery = ChartRecovery::near(library, &shots.iter().map(without).collect::<Vec<_>>(), &whole)?;
+        let sensor = recovery.curves.sensor().map_err(|_| RecoveryError::Unsolved)?;
         let (white, all) = samples(&sensor, observer, first, &vec![1.0; first.patches.len()]);
         let others = all.iter().filter(|s| !is_omitted(s.name)).map(|s| (s.predicted, s.target));
         let matrix = fitted(others, &Correction::default(), white)?;

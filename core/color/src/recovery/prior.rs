@@ -77,6 +77,10 @@ impl Library {
         &self.wavelengths_nm
     }
 
+    pub(super) fn is_empty(&self) -> bool {
+        self.sensors.is_empty()
+    }
+
     /// The table with a name.
     pub(super) fn sensor(&self, name: &str) -> Option<&Sensor> {
         self.names.iter().position(|own| own == name).map(|at| &self.sensors[at])

@@ -111,7 +111,7 @@ impl ShotProfile {
         observer: &Sensor,
         corrections: &[Correction],
     ) -> Result<Self, RecoveryError> {
-        let sensor = recovery.curves.sensor().map_err(|_| RecoveryError::NoPrior)?;
+        let sensor = recovery.curves.sensor().map_err(|_| RecoveryError::Unsolved)?;
         let (mut white, mut neutral, mut all) = (DVec3::ONE, DVec3::ONE, Vec::new());
         for (shot, brightness) in under.iter().filter_map(|at| Some((shots.get(*at)?, recovery.brightness.get(*at)?))) {
             let (of_light, samples) = samples(&sensor, observer, shot, brightness);
