@@ -37,9 +37,9 @@ pub fn index_of(shot: &RenderedFrame, id: &SensorId) -> Option<usize> {
     shot.sources.iter().position(|source| source.kind == id.kind && source.name == id.name)
 }
 
-/// Pictures side by side for a number of sensors.
+/// Pictures side by side for a number of sensors: three in a row, as two rows would leave a quarter empty.
 fn columns(count: usize) -> usize {
-    ((count as f64).sqrt().ceil() as usize).max(1)
+    if count == 3 { 3 } else { ((count as f64).sqrt().ceil() as usize).max(1) }
 }
 
 /// Width in points of each of some pictures in a figure with this room.
