@@ -185,8 +185,8 @@ pub fn conditions(measured: &ChartMeasurement) -> Vec<String> {
 
 /// Signs that light or chart are not those named: where there are any, nothing is made of a measurement without consent.
 ///
-/// Over the library, each camera's model left out, photographs simulated: with the right light (D65, A or FL11) 9 of 174 are warned of or
-/// refused, all of three cameras unlike all others; with a wrong one of these 337 of 348 are. See `tests/app/measured_doubts.rs`.
+/// Over the library, each camera's model left out, photographs simulated: with the right light (D65, A or FL11) 8 of 174 are warned of or
+/// refused, all of three cameras unlike all others; with a wrong one of these 334 of 348 are. See `tests/app/measured_doubts.rs`.
 pub fn doubts(measured: &ChartMeasurement) -> Vec<String> {
     let mut doubts = Vec::new();
     if let Some([kelvin, deviation]) = measured.daylight.filter(|[kelvin, deviation]| kelvin - deviation < WARMEST) {

@@ -39,7 +39,11 @@ pub fn index_of(shot: &RenderedFrame, id: &SensorId) -> Option<usize> {
 
 /// Pictures side by side for a number of sensors: three in a row, as two rows would leave a quarter empty.
 fn columns(count: usize) -> usize {
-    if count == 3 { 3 } else { ((count as f64).sqrt().ceil() as usize).max(1) }
+    if count == 3 { 3 } else { in_square(count) }
+}
+
+fn in_square(count: usize) -> usize {
+    ((count as f64).sqrt().ceil() as usize).max(1)
 }
 
 /// Width in points of each of some pictures in a figure with this room.
@@ -48,9 +52,9 @@ pub fn picture_width(room: FigureRoom, count: usize) -> f64 {
     room.width.map_or(WIDTH, |width| ((width - GAP) / across - GAP).max(1.0))
 }
 
-/// True if maps of so many sensors leave a place empty, which the reference takes.
+/// True if maps of so many sensors leave a place of a square empty, which the reference takes.
 pub fn has_reference_beside(compared: usize) -> bool {
-    !compared.is_multiple_of(columns(compared))
+    !compared.is_multiple_of(in_square(compared))
 }
 
 /// Pictures shown, by index: all, or all but the reference, which is beside maps only in a place that were empty.
@@ -84,8 +88,11 @@ fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figu
     let shape = made.pictures.iter().flatten().next().map_or([1, 1], |picture| [picture.width, picture.height]);
     let width = picture_width(room, shown.len());
     let size = [width, width * shape[1] as f64 / shape[0].max(1) as f64];
-    let cells: Vec<PictureCell<'_>> =
-        shown.into_iter().map(|at| PictureCell::new(shot, at, maps.is_some(), width)).collect();
+    let cells = |on_a_line: bool| -> Vec<PictureCell<'_>> {
+        shown.iter().map(|at| PictureCell::new(shot, *at, maps.is_some(), width, on_a_line)).collect()
+    };
+    let all_on_a_line = cells(true).iter().all(|cell| cell.lines.len() == 1);
+    let cells = cells(all_on_a_line);
     let above = cells.iter().map(PictureCell::height).fold(0.0, f64::max);
     let rows = cells.len().div_ceil(columns);
     let scale = if maps.is_some() { difference::SCALE_HEIGHT } else { 0.0 };
@@ -144,7 +151,8 @@ impl<'a> PictureCell<'a> {
     /// Room for the marker before the name.
     const KEY: f64 = 18.0;
 
-    fn new(shot: &'a RenderedFrame, at: usize, is_map: bool, width: f64) -> Self {
+    /// With name and difference on one line, where asked for and possible.
+    fn new(shot: &'a RenderedFrame, at: usize, is_map: bool, width: f64, on_a_line: bool) -> Self {
         let source = &shot.sources[at];
         let label = if source.is_reference { format!("Reference, {}", source.label) } else { source.label.clone() };
         let is_long =
@@ -162,7 +170,7 @@ impl<'a> PictureCell<'a> {
         let note = if is_short { words(Detail::Metric).unwrap_or_default() } else { all };
         let both = text_width(&label, TextSize::Body) + text_width(&note, TextSize::Body) + Self::KEY + 2.0 * GAP;
         let lines = |text: &str, size, room| wrapped(text, size, room).into_iter().map(move |line| (line, size));
-        if both <= width && !by_short {
+        if on_a_line && both <= width && !by_short {
             return Self { at, source, lines: vec![(label.clone(), TextSize::Body)], named: 1, label, note, is_short };
         }
         let fits = |form: &&str| text_width(form, TextSize::Small) + Self::KEY <= width;
