@@ -22,8 +22,9 @@ use crate::workspaces::PaneKind;
 
 const REACH: f32 = 10.0;
 const STRIP: f32 = 124.0;
-/// Height of the cameras' differences.
+/// Least height of the cameras' differences, and their share of a high pane.
 const MULTIPLES: f32 = 151.0;
+const MULTIPLES_SHARE: f32 = 0.33;
 /// Below this height of the diagram there is no strip.
 const WITH_STRIP: f32 = 350.0;
 /// Share of a low pane that the cameras' differences take beside the diagram, and its least width and height.
@@ -53,7 +54,7 @@ fn show(ui: &mut Ui, rect: Rect, context: &mut PaneContext<'_>) {
     let cut = if beside {
         Pos2::new(body.right() - (COLUMN * body.width()).round(), body.bottom())
     } else {
-        let below = if multiples { MULTIPLES } else { STRIP };
+        let below = if multiples { (MULTIPLES_SHARE * body.height()).round().max(MULTIPLES) } else { STRIP };
         Pos2::new(body.right(), body.bottom() - if fits { below } else { ROW })
     };
     diagram(ui, Rect::from_min_max(body.min, cut), context);
