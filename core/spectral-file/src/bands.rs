@@ -70,7 +70,7 @@ fn band(dialect: Dialect, name: &str) -> Option<Band<'_>> {
         from = end;
         let Cell::Number(wavelength) = dialect.parse(&name[start..end]) else { continue };
         let (unit, suffix) = unit(&name[end..]);
-        let prefix = name[..start].trim();
+        let (prefix, suffix) = unbracketed(name[..start].trim(), suffix);
         let bare = prefix.trim_end_matches(['_', '.', ' ', '-']).to_ascii_lowercase();
         let numbers = || is_one(&bare, "wn|wavenumber").then_some(WavelengthUnit::Wavenumber);
         let before = bare.ends_with("nm").then_some(WavelengthUnit::Nanometer).or_else(numbers);
@@ -85,6 +85,13 @@ fn band(dialect: Dialect, name: &str) -> Option<Band<'_>> {
     // `400_refl`
     let measured = |band: &Band<'_>| band.prefix.is_empty() && header_terms::role_of_bands(band.suffix).is_some();
     found.filter(|band| band.is_known() || band.suffix.is_empty() && word(band) || measured(band))
+}
+
+/// Without the brackets around a wavelength: `Rrs(412)`, `R[400 nm]`.
+fn unbracketed<'a>(prefix: &'a str, suffix: &'a str) -> (&'a str, &'a str) {
+    let Some(bare) = prefix.strip_suffix(['(', '[']).filter(|bare| !bare.is_empty()) else { return (prefix, suffix) };
+    let rest = suffix.strip_prefix([')', ']']);
+    rest.or(suffix.is_empty().then_some("")).map_or((prefix, suffix), |rest| (bare.trim_end(), rest.trim_start()))
 }
 
 fn unit(text: &str) -> (Option<WavelengthUnit>, &str) {

@@ -61,6 +61,8 @@ choices! {
         /// µm: 1000 nm.
         #[serde(alias = "micrometers")]
         Micrometer = "micrometers", "µm";
+        /// As computed in SI units: 10⁹ nm.
+        Meter = "meters", "m";
         /// Å: 0.1 nm.
         #[serde(alias = "angstroms")]
         Angstrom = "ångströms", "Å";
@@ -143,6 +145,8 @@ choices! {
         Utf16Be = "UTF-16 BE";
         /// Windows-1252, which holds Latin-1: taken for all that is none of the others.
         Windows1252 = "Windows-1252";
+        /// A code page of DOS, by its signs of units, which alone are read.
+        Dos = "a DOS code page";
         /// None of those here, such as Big5, EUC-KR or Windows-1251.
         Unknown = "an unknown encoding, read as Windows-1252";
         /// Shift-JIS, as Windows writes it.

@@ -125,6 +125,9 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
         let united = |names: &str| names.ends_with([')', ']']);
         let text = body.unwrap_or(line);
         header.raman |= has_word(&lower(text), "raman");
+        if let Some(name) = text.strip_prefix("Data from ").and_then(|rest| rest.trim_end().strip_suffix(" Node")) {
+            header.note(number, "title", name.trim_end_matches(".txt"));
+        }
         // The database's spectra are over Raman shifts, wave numbers of the infrared or angles.
         if text.contains("rruff.info") {
             header.x_unit = Some((number, XUnit::Other));
@@ -314,7 +317,9 @@ impl Header {
             self.unit = unit_text::unit(value).or(self.unit.take());
         }
         self.calibration |= header_terms::says_calibration(text);
-        if let Some(role) = header_terms::role_in_prose(text).filter(|_| !self.calibration) {
+        // ASD's files are named after what was meant to be measured.
+        let is_path = text.contains(".asd");
+        if let Some(role) = header_terms::role_in_prose(text).filter(|_| !self.calibration && !is_path) {
             (self.mentioned, self.earlier) = (Some((line, role)), self.mentioned);
             let told = role == Role::Illuminant || role.is_fraction();
             if header_terms::quantity(text).is_some() && told && self.measured[1].is_none() {

@@ -125,6 +125,9 @@ pub(super) fn not_converted(text: &str) -> Option<&'static str> {
         () if has("diffraction|grating") && has("efficienc") => {
             Some("The efficiency of a grating is that of no camera: it is one factor of an instrument")
         }
+        () if has("correction") && word("curve|factor|factors") => {
+            Some("A correction is a factor of an instrument's values, and none of the spectra read here")
+        }
         () if begins(&text, "emissivit") => Some("An emissivity is neither a reflectance nor a transmittance"),
         () => None,
     }
@@ -427,7 +430,7 @@ fn bracketed_letter(lower: &str) -> Option<XUnit> {
     let multiple = ["10^3", "10^4", "10³", "1000", "k"].iter().any(|start| unit.starts_with(start));
     match unit {
         "a" => Some(XUnit::Wavelength(WavelengthUnit::Angstrom)),
-        "m" | "meter" | "meters" | "metre" | "metres" => Some(XUnit::Other),
+        "m" => Some(XUnit::Wavelength(WavelengthUnit::Meter)),
         _ if multiple && unit.contains("cm") => Some(XUnit::Other),
         _ => None,
     }

@@ -239,6 +239,9 @@ impl ReadReport {
             Encoding::Utf8 => certain("The bytes are valid UTF-8"),
             Encoding::Utf16Le | Encoding::Utf16Be => certain("A byte order mark, or zeros in every other byte, say so"),
             Encoding::Windows1252 => certain("The bytes are not UTF-8"),
+            Encoding::Dos => {
+                Decided::guess(self.encoding, "The bytes are not UTF-8, and m² or µW is written as in DOS")
+            }
             Encoding::Unknown => Decided::guess(
                 self.encoding,
                 "The bytes are no text in a known encoding: save the file as UTF-8 for its names",

@@ -51,6 +51,10 @@ fn decode_any(bytes: &[u8]) -> (Cow<'_, str>, Encoding) {
         Err(_) => match (shift_jis(rest), gbk(rest)) {
             (Some(text), _) => (text, Encoding::ShiftJis),
             (None, Some(text)) => (text, Encoding::Gbk),
+            (None, None) if is_dos(rest) => {
+                let text = WINDOWS_1252.decode_without_bom_handling(rest).0;
+                (Cow::Owned(text.replace('æ', "µ").replace('ý', "²").replace('ø', "°")), Encoding::Dos)
+            }
             (None, None) => {
                 // No western language has so many accented letters side by side.
                 let pair = |run: &&[u8]| run.len() > 1 && run.iter().any(|byte| *byte >= 0xC0);
@@ -61,6 +65,12 @@ fn decode_any(bytes: &[u8]) -> (Cow<'_, str>, Encoding) {
             }
         },
     }
+}
+
+/// True where m² or µW is written as in the code pages 437 and 850: no word has such letters there.
+#[cfg(feature = "encodings")]
+fn is_dos(bytes: &[u8]) -> bool {
+    bytes.windows(2).any(|pair| pair == b"m\xFD" || pair == b"\xE6W")
 }
 
 /// Bytes that are sound Shift-JIS and hold more of its common characters than of what accented letters look like in it.

@@ -277,6 +277,7 @@ impl WavelengthUnit {
             // U+00B5 and U+03BC, and the former misread as Windows-1252.
             "um" | "µm" | "μm" | "âµm" | "micron" | "microns" | "micro" | "micrometer" | "micrometers"
             | "micrometre" | "micrometres" => Some(Self::Micrometer),
+            "meter" | "meters" | "metre" | "metres" => Some(Self::Meter),
             "cm-1" | "cm^-1" | "1/cm" | "cm⁻¹" | "wavenumbers" => Some(Self::Wavenumber),
             "thz" | "terahertz" => Some(Self::Terahertz),
             "å" | "aa" | "ångström" | "ångströms" | "angstrom" | "angstroms" => Some(Self::Angstrom),
@@ -289,6 +290,7 @@ impl WavelengthUnit {
         match self {
             Self::Nanometer => value,
             Self::Micrometer => clean(decimal::shifted(value, 3)),
+            Self::Meter => clean(decimal::shifted(value, 9)),
             Self::Angstrom => clean(decimal::shifted(value, -1)),
             Self::Wavenumber => clean(1e7 / value),
             Self::Terahertz => clean(SPEED_OF_LIGHT_NM_THZ / value),
@@ -302,6 +304,7 @@ impl WavelengthUnit {
         match self {
             Self::Nanometer => nm,
             Self::Micrometer => decimal::shifted(nm, -3),
+            Self::Meter => decimal::shifted(nm, -9),
             Self::Angstrom => decimal::shifted(nm, 1),
             Self::Wavenumber => clean(1e7 / nm),
             Self::Terahertz => clean(SPEED_OF_LIGHT_NM_THZ / nm),

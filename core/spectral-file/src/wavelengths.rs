@@ -49,7 +49,9 @@ fn unit_from_range(grid: &Grid) -> Result<Decided<WavelengthUnit>, ReadError> {
     let steady = 4 * rises.max(falls) >= 3 * steps().count();
     let in_order = is_named(grid) || steady && grid.wavelengths.iter().any(|wavelength| wavelength.fract() != 0.0);
     let (min, max) = extent(grid.wavelengths.iter().copied());
-    let unit = if min >= 0.1 && max <= 25.0 && in_order {
+    let unit = if min >= 1e-7 && max <= 25e-6 {
+        WavelengthUnit::Meter
+    } else if min >= 0.1 && max <= 25.0 && in_order {
         WavelengthUnit::Micrometer
     } else if (2000.0..=4000.0).contains(&min) && (7000.0..=12_000.0).contains(&max) && is_named(grid) {
         // The word excludes wave numbers.
@@ -101,8 +103,12 @@ fn is_bare(grid: &Grid) -> bool {
     grid.curves.len() == 1 && !named
 }
 
+/// Where light ceases to be seen, and how many rows there are to one that is a last few.
+const VISIBLE_TO_NM: f64 = 780.0;
+const FEW: usize = 10;
+
 /// Converts wavelengths to nanometers. Those beyond the range at one end of the table, where they go on in its order, are left out if
-/// the unit is no guess and most are within.
+/// the unit is no guess, or they are few, and most are within.
 pub(super) fn to_nanometers(
     grid: &mut Grid,
     unit: &Decided<WavelengthUnit>,
@@ -126,7 +132,9 @@ pub(super) fn to_nanometers(
     let ordered = nm.windows(2).all(|pair| pair[0] < pair[1]) || nm.windows(2).all(|pair| pair[0] > pair[1]);
     let sound = ordered && within.len() > 1 && within.len() >= count && nm.iter().all(|nm| *nm > 0.0);
     let guessed = (unit.value, unit.certainty) == (WavelengthUnit::Nanometer, Certainty::Guess);
-    if guessed || !sound || marked[within].contains(&true) {
+    // From light that is seen on, a last few in the far infrared do not make it another unit.
+    let few = nm[0] < VISIBLE_TO_NM && FEW * count <= nm.len();
+    if guessed && !few || !sound || marked[within].contains(&true) {
         return Err(error);
     }
     let (from_nm, to_nm) = extent(nm.iter().copied().filter(out));

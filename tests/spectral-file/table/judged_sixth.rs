@@ -87,3 +87,80 @@ fn minerals_of_rruff_are_over_no_wavelengths() {
     let error = read(text.as_bytes(), &ReadOptions::default()).unwrap_err();
     assert!(error.to_string().starts_with("line 2: the header gives neither wavelengths"), "{error}");
 }
+
+#[test]
+fn wavelengths_in_meters() {
+    let table = ok("% lam[m] S\n380e-9 0.50\n390e-9 0.55\n400e-9 0.83\n");
+    assert_eq!(table.curves[0].wavelengths_nm, [380.0, 390.0, 400.0]);
+    assert_eq!(table.reading.wavelength_unit.certainty, Certainty::Guess);
+    let table = ok("wavelength (m),reflectance\n3.8e-07,0.50\n3.9e-07,0.55\n4.0e-07,0.83\n");
+    assert_eq!(table.curves[0].wavelengths_nm, [380.0, 390.0, 400.0]);
+    assert_eq!(table.reading.wavelength_unit.certainty, Certainty::Certain);
+}
+
+#[test]
+fn wavelengths_in_brackets_behind_what_was_measured() {
+    let heads = ["400", "410", "420", "430", "440", "450"].map(|nm| format!("R({nm})")).join(",");
+    let table = ok(&format!("name,{heads}\nfirst,0.5,0.5,0.5,0.5,0.6,0.6\nsecond,0.52,0.54,0.55,0.56,0.6,0.6\n"));
+    assert_eq!(names(&table), ["first", "second"]);
+    assert!(table.curves.iter().all(|curve| curve.unit.is_none()));
+    let table = ok(&format!("name,{}\nfirst,53.5,55.5,56,57,58,59\n", heads.replace('R', "Ed")));
+    assert_eq!((names(&table), table.curves[0].wavelengths_nm[5]), (vec!["first"], 450.0));
+}
+
+#[test]
+fn signs_of_units_in_a_code_page_of_dos() {
+    let text = b"Mode/Unit-->,Irradiance[\xe6Watt/cm\xfd]\nWavelength[nm],lamp\n400.1,9.2\n401.2,9.9\n402.3,11.5\n";
+    let table = read(text.as_slice(), &ReadOptions::default()).unwrap();
+    assert_eq!(table.curves[0].unit.as_deref(), Some("µWatt/cm²"));
+}
+
+#[test]
+fn the_gain_behind_each_value_is_no_spectrum() {
+    let head =
+        "[Header]\nMeasurement Type\tIrradiance\nUnits\t(W/m^2nm)\n[Designation]\nLine0\tlamp, 1 m\n[Start Data]\n";
+    let table = ok(&format!("{head}400.0\t1.1e-3\t-6\n410.0\t1.3e-3\t-6\n420.0\t1.7e-3\t-5\n"));
+    assert_eq!(names(&table), ["lamp, 1 m"]);
+}
+
+#[test]
+fn the_path_of_a_file_does_not_say_what_was_measured() {
+    let head = "Text conversion of header file C:\\d\\reflec_00125.asd\nData is not compared to a white reference\n\n";
+    let table = ok(&format!("{head}Wavelength\treflec_00125.asd\n400\t2310.5\n401\t2322.5\n402\t2333.1\n"));
+    assert_eq!((table.role.value, table.role.certainty), (Role::Unknown, Certainty::Guess));
+}
+
+#[test]
+fn an_index_names_each_of_its_columns() {
+    let values = r#""400":[0.0143,0.0004,0.0679],"410":[0.0435,0.0012,0.2074]"#;
+    let data = format!(r#"{{"units":"relative","index":{{"main":["X","Y","Z"]}},"data":{{"main":{{{values}}}}}}}"#);
+    let table = ok(&format!(r#"{{"header":{{"schema_version":"1.0.0","type":"cie-1931"}},"spectral_data":{data}}}"#));
+    assert_eq!(names(&table), ["X", "Y", "Z"]);
+}
+
+#[test]
+fn a_last_few_rows_in_the_far_infrared_are_no_other_unit() {
+    let rows: String = (0..20).map(|at| format!("{} 0.05\n", 320 + 1200 * at)).collect();
+    let table = ok(&format!("{rows}25050.2 0.16\n"));
+    assert_eq!(table.curves[0].wavelengths_nm.len(), 20);
+}
+
+#[test]
+fn a_correction_is_no_light() {
+    let rows = "400,29.0\n410,25.8\n420,22.7\n";
+    let table = ok(&format!("My emission correction curve,\nWavelength (nm),Intensity (a.u.)\n{rows}"));
+    assert_eq!((table.role.value, table.role.certainty), (Role::Unknown, Certainty::Open));
+}
+
+#[test]
+fn names_of_ocean_view_enlighten_and_spectra_pen() {
+    let table =
+        ok("Data from leaf_top.txt Node\n\n>>>>>Begin Spectral Data<<<<<\n400.1\t8.1\n400.6\t8.2\n401.1\t8.3\n");
+    assert_eq!(names(&table), ["leaf_top"]);
+    let rows = "400.33,1196.00,1133.00\n400.61,1196.00,1141.00\n400.89,1184.00,1148.00\n";
+    let table = ok(&format!("Label,one,two\n\nWP-00413,one,two\nWavelength,Processed,Processed\n{rows}"));
+    assert_eq!(names(&table), ["one", "two"]);
+    let rows = "400.1,3.73,3.71\n402,3.55,3.25\n403.8,3.25,2.98\n";
+    let table = ok(&format!("Irradiance [W/m2/nm],\n\nIndex,13,14,\nName,leafA,leafB,\nGPS,,,\n[nm],\n{rows}"));
+    assert_eq!(names(&table), ["leafA", "leafB"]);
+}

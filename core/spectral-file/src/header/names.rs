@@ -76,6 +76,12 @@ impl Header {
             if self.units.is_empty() || self.x_unit.is_none() {
                 self.take_unit_cell(number, &cells, layout);
             }
+            // Spectroradiometers of Optronic Laboratories write the exponent of the gain behind each value.
+            if let ([key, name], 3) = (cells.as_slice(), layout.width)
+                && key == "Line0"
+            {
+                cells = vec![String::new(), name.clone(), "gain".to_owned()];
+            }
             // Some programs name only the curves.
             if cells.len() + 1 == layout.width && !is_row_key(&cells[0]) && !headed(&cells) {
                 cells.insert(0, String::new());
@@ -138,7 +144,9 @@ impl Header {
             // A name over its mean and its uncertainty.
             let over_first = statistics > 1 && filled.first() == values.first();
             let over_values = over_first && filled.iter().all(|column| values.contains(column));
-            if !names || title || split < 2 || !(over_axes || over_values || filled == values) {
+            // An instrument's number over the wavelengths.
+            let numbered = alike && filled.first() == axes.first() && filled[1..] == values[..];
+            if !names || title || split < 2 || !(over_axes || over_values || numbered || filled == values) {
                 return;
             }
             let mut name = "";
@@ -283,7 +291,7 @@ fn names_row(cell: &str) -> bool {
 
 /// Returns whether a cell says what stands beside it: names, numbers or times of the curves.
 fn is_row_key(cell: &str) -> bool {
-    const KEYS: &str = "index|no|no.|nr|number|id|time|date|date/time|timestamp";
+    const KEYS: &str = "index|no|no.|nr|number|id|time|date|date/time|timestamp|gps";
     names_row(cell) || is_one(lower(cell).trim().trim_end_matches(':'), KEYS)
 }
 

@@ -139,6 +139,10 @@ const MOST_OTHERS: usize = 4;
 /// The role that the columns name. What only a sample is called, such as `radiance paint` among others or against a line
 /// above, decides nothing.
 fn named(grid: &Grid) -> Option<Decided<Role>> {
+    // ASD names the column by the file, and the file by what was meant to be measured.
+    if grid.curves.iter().all(|curve| curve.label.ends_with(".asd")) {
+        return None;
+    }
     let all = grid.curves.len() > 1 && grid.curves.iter().all(|curve| header_terms::role(&curve.label).is_some());
     let mut named = grid.curves.iter().filter_map(|curve| Some((header_terms::role(&curve.label)?, &curve.label)));
     let (role, name) = named.next()?;

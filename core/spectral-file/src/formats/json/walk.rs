@@ -480,10 +480,11 @@ impl<'d, 'a, 'l, 'w> Walk<'d, 'a, 'l, 'w> {
             let is_curve = is_curve(&column);
             let numbered = || if single { String::new() } else { (column.at + 1).to_string() };
             let named = || here.columns.get(column.at).cloned().unwrap_or_else(numbered);
+            let listed = column.key.is_empty() && here.columns.len() > 1;
             let key = if column.key.is_empty() { named() } else { column.key.into_owned() };
             let said = words(&key);
             let around = if column.sample.is_empty() { &here.name } else { &column.sample };
-            let name = match (around.is_empty(), is_one(&said, VALUES)) {
+            let name = match (around.is_empty(), !listed && is_one(&said, VALUES)) {
                 (true, true) => None,
                 (false, true) => Some(around.clone()),
                 (false, false) if single && is_curve => Some(around.clone()),
