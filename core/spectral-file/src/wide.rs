@@ -9,7 +9,7 @@ use crate::dialect_trial::{Across, Layout};
 use crate::error::{MAX_PARTS, ReadError, check_curves, check_samples};
 use crate::grid::{Grid, RawCurve};
 use crate::header::{self, Header};
-use crate::text::{Lines, Section, comment, excerpt, listed};
+use crate::text::{Lines, Section, comment, excerpt, has_word, listed};
 use crate::warning::{LineList, Warning};
 use crate::watch::Log;
 use crate::{header_terms, no_curve, uncertainty_terms, unit_text};
@@ -129,7 +129,12 @@ fn description(heads: &[&str], at: usize) -> String {
 /// The leading column that best names a row: one headed so, else the first.
 pub(super) fn name_column(leading: &[&str]) -> usize {
     const NAMES: [&str; 7] = ["name", "sample", "label", "patch", "color", "tag", "id"];
-    let headed = |wanted: &&str| leading.iter().position(|cell| cell.to_lowercase().contains(*wanted));
+    // `humidity` and `voltage` hold the last two.
+    let is_headed = |cell: &str, wanted: &str| match wanted {
+        "tag" | "id" => cell.ends_with(wanted) || has_word(&cell.replace('_', " "), wanted),
+        _ => cell.contains(wanted),
+    };
+    let headed = |wanted: &&str| leading.iter().position(|cell| is_headed(&cell.to_lowercase(), wanted));
     NAMES.iter().find_map(headed).unwrap_or(0)
 }
 

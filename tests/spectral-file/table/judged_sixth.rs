@@ -164,3 +164,10 @@ fn names_of_ocean_view_enlighten_and_spectra_pen() {
     let table = ok(&format!("Irradiance [W/m2/nm],\n\nIndex,13,14,\nName,leafA,leafB,\nGPS,,,\n[nm],\n{rows}"));
     assert_eq!(names(&table), ["leafA", "leafB"]);
 }
+
+#[test]
+fn humidity_is_no_id() {
+    let rows = "2012-01-01T01:00,17.7,75.2,1,2,3,4,5,6\n2012-01-01T02:00,16.1,75.2,2,3,4,5,6,7\n";
+    let table = ok(&format!("datetime,temp,relativehumidity,400,450,500,550,600,650\n{rows}"));
+    assert_eq!(names(&table), ["2012-01-01T01:00", "2012-01-01T02:00"]);
+}
