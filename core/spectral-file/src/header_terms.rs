@@ -125,7 +125,8 @@ pub(super) fn not_converted(text: &str) -> Option<&'static str> {
         () if has("diffraction|grating") && has("efficienc") => {
             Some("The efficiency of a grating is that of no camera: it is one factor of an instrument")
         }
-        () if has("correction") && word("curve|factor|factors") => {
+        // With a value behind it, it is a setting.
+        () if has("correction curve") && !text.contains([':', '=', '\t']) => {
             Some("A correction is a factor of an instrument's values, and none of the spectra read here")
         }
         () if begins(&text, "emissivit") => Some("An emissivity is neither a reflectance nor a transmittance"),
@@ -430,7 +431,7 @@ fn bracketed_letter(lower: &str) -> Option<XUnit> {
     let multiple = ["10^3", "10^4", "10³", "1000", "k"].iter().any(|start| unit.starts_with(start));
     match unit {
         "a" => Some(XUnit::Wavelength(WavelengthUnit::Angstrom)),
-        "m" => Some(XUnit::Wavelength(WavelengthUnit::Meter)),
+        "m" | "meter" | "meters" | "metre" | "metres" => Some(XUnit::Wavelength(WavelengthUnit::Meter)),
         _ if multiple && unit.contains("cm") => Some(XUnit::Other),
         _ => None,
     }

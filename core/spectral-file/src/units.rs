@@ -277,7 +277,6 @@ impl WavelengthUnit {
             // U+00B5 and U+03BC, and the former misread as Windows-1252.
             "um" | "µm" | "μm" | "âµm" | "micron" | "microns" | "micro" | "micrometer" | "micrometers"
             | "micrometre" | "micrometres" => Some(Self::Micrometer),
-            "meter" | "meters" | "metre" | "metres" => Some(Self::Meter),
             "cm-1" | "cm^-1" | "1/cm" | "cm⁻¹" | "wavenumbers" => Some(Self::Wavenumber),
             "thz" | "terahertz" => Some(Self::Terahertz),
             "å" | "aa" | "ångström" | "ångströms" | "angstrom" | "angstroms" => Some(Self::Angstrom),

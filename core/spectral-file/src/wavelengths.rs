@@ -49,7 +49,7 @@ fn unit_from_range(grid: &Grid) -> Result<Decided<WavelengthUnit>, ReadError> {
     let steady = 4 * rises.max(falls) >= 3 * steps().count();
     let in_order = is_named(grid) || steady && grid.wavelengths.iter().any(|wavelength| wavelength.fract() != 0.0);
     let (min, max) = extent(grid.wavelengths.iter().copied());
-    let unit = if min >= 1e-7 && max <= 25e-6 {
+    let unit = if min >= 1e-7 && max <= 25e-6 && in_order {
         WavelengthUnit::Meter
     } else if min >= 0.1 && max <= 25.0 && in_order {
         WavelengthUnit::Micrometer

@@ -140,8 +140,8 @@ fn an_index_names_each_of_its_columns() {
 
 #[test]
 fn a_last_few_rows_in_the_far_infrared_are_no_other_unit() {
-    let rows: String = (0..20).map(|at| format!("{} 0.05\n", 320 + 1200 * at)).collect();
-    let table = ok(&format!("{rows}25050.2 0.16\n"));
+    let rows: Vec<String> = (0..20).map(|at| format!("{} 0.05", 320 + 1200 * at)).collect();
+    let table = ok(&format!("{}\n25050.2 0.16\n", rows.join("\n")));
     assert_eq!(table.curves[0].wavelengths_nm.len(), 20);
 }
 

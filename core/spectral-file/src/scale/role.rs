@@ -140,7 +140,7 @@ const MOST_OTHERS: usize = 4;
 /// above, decides nothing.
 fn named(grid: &Grid) -> Option<Decided<Role>> {
     // ASD names the column by the file, and the file by what was meant to be measured.
-    if grid.curves.iter().all(|curve| curve.label.ends_with(".asd")) {
+    if grid.curves.iter().all(|curve| curve.label.contains(".asd")) {
         return None;
     }
     let all = grid.curves.len() > 1 && grid.curves.iter().all(|curve| header_terms::role(&curve.label).is_some());
