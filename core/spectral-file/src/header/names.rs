@@ -76,12 +76,7 @@ impl Header {
             if self.units.is_empty() || self.x_unit.is_none() {
                 self.take_unit_cell(number, &cells, layout);
             }
-            // Spectroradiometers of Optronic Laboratories write the exponent of the gain behind each value.
-            if let ([key, name], 3) = (cells.as_slice(), layout.width)
-                && key == "Line0"
-            {
-                cells = vec![String::new(), name.clone(), "gain".to_owned()];
-            }
+            name_gain(&mut cells, layout);
             // Some programs name only the curves.
             if cells.len() + 1 == layout.width && !is_row_key(&cells[0]) && !headed(&cells) {
                 cells.insert(0, String::new());
@@ -332,6 +327,15 @@ fn is_measured(layout: &Layout, cells: &[String]) -> bool {
         && number(key).is_none()
         && numbers.all(|value| value.is_some())
         && values.iter().filter_map(number).any(|value| value.fract() != 0.0)
+}
+
+/// Names the last column of Optronic Laboratories' spectroradiometers, which is the exponent of the gain behind each value.
+fn name_gain(cells: &mut Vec<String>, layout: &Layout) {
+    if let ([key, name], 3) = (cells.as_slice(), layout.width)
+        && key == "Line0"
+    {
+        *cells = vec![String::new(), name.clone(), "gain".to_owned()];
+    }
 }
 
 /// The cells of a comment that marks each name as one.
