@@ -135,6 +135,7 @@ impl ChromascopeApp {
                     if let Some(pasted) = files.iter().copied().find(is_pasted) {
                         self.view.import.select(ImportItem::File(pasted));
                         self.show_workspace(Workspace::Data);
+                        self.view.show(PaneKind::IMPORT);
                     }
                     // An earlier success must not stand beside it.
                     self.view.status = Status::default();
@@ -219,6 +220,7 @@ impl ChromascopeApp {
         if let Some(item) = pasted.and_then(|index| items.get(index)) {
             self.view.select_file(item.clone(), &self.history.document().own);
             self.show_workspace(Workspace::Data);
+            self.view.show(PaneKind::IMPORT);
         }
     }
 

@@ -26,6 +26,10 @@ impl View {
                 let layout = &mut self.saved.layout;
                 let Some((workspace, at)) = layout.place_of(pane, self.saved.workspace) else { return };
                 layout.put(workspace, at, pane);
+                // Measuring takes all of Data, and would cover it.
+                if at > 0 && layout.data[0] == Some(PaneKind::MEASURE) && workspace == Workspace::Data {
+                    layout.data[0] = Some(PaneKind::LIBRARY);
+                }
                 self.saved.workspace = workspace;
                 if at >= 2 {
                     (self.card, layout.right) = (None, true);

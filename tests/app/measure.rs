@@ -414,6 +414,11 @@ fn narrow_bands_become_a_camera() {
     until(&mut window, "Name the raw value from which on a mean is saturated");
     assert!(window.state().view.is_shown(PaneKind::MEASURE) && !can(&window, ADD));
     assert!(window.state().history.document().measurement.shots.is_empty(), "bands are measured in place of pictures");
+    window.state_mut().push(Command::GoTo(PaneKind::IMPORT));
+    window.run_steps(3);
+    assert!(window.state().view.is_shown(PaneKind::IMPORT), "measuring does not cover it");
+    window.state_mut().push(Command::GoTo(PaneKind::MEASURE));
+    window.run_steps(3);
     window.get_by_label_contains("16384, the largest, of ").click();
     until(&mut window, "Saturated, skipped and filled from the library's tables: blue at 410, 420, 430, 440 nm");
     for words in ["Pass 1: pass1.csv, 31 bands", "Dark, skipped", "Passes scatter by", "Exponent of the response"] {

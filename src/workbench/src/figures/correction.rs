@@ -30,8 +30,9 @@ const CURVES: [Curve; 4] = [
         InkRole::Sensor(1),
         (1.5, Dash::Solid),
     ),
-    (|_| "fitted at each temperature".to_owned(), |point| point.own, InkRole::Weak, (1.5, Dash::Dotted)),
-    (|_| "mixed as DNG readers do".to_owned(), |point| point.mixed, InkRole::Text, (2.5, Dash::Solid)),
+    // Beneath what it approaches.
+    (|_| "mixed as DNG readers do".to_owned(), |point| point.mixed, InkRole::Sensor(2), (4.0, Dash::Solid)),
+    (|_| "fitted at each temperature".to_owned(), |point| point.own, InkRole::Text, (1.5, Dash::Dotted)),
 ];
 
 pub static KIND: FigureKind =

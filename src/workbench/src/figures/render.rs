@@ -113,7 +113,8 @@ fn figure(scene: &Scene<'_>, look: &FigureLook, room: FigureRoom) -> Option<Figu
     figure.caption = match maps {
         Some(_) => {
             let hatched = if shown_unlit(&made) { "; hatched: no light" } else { "" };
-            format!("Maps of {} from the reference{hatched}. {}", measure.name(), caption(scene, shot))
+            let black = if made.image().is_none() { "; black: no surface" } else { "" };
+            format!("Maps of {} from the reference{black}{hatched}. {}", measure.name(), caption(scene, shot))
         }
         None => format!("{}{}", caption(scene, shot), shot.query.exaggeration().sentence()),
     };
