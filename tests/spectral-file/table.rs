@@ -11,6 +11,7 @@ mod judged;
 mod judged_columns;
 mod judged_fourth;
 mod judged_more;
+mod judged_seventh;
 mod judged_sixth;
 mod judged_third;
 mod light_units;

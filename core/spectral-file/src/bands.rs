@@ -67,6 +67,7 @@ fn band(dialect: Dialect, name: &str) -> Option<Band<'_>> {
         let in_number = |c: char| c.is_ascii_digit() || matches!(c, '.' | ',');
         let end = name[start..].find(|c| !in_number(c)).map_or(name.len(), |at| start + at);
         let end = start + name[start..end].trim_end_matches(['.', ',']).len();
+        let end = end + exponent(&name[end..]);
         from = end;
         let Cell::Number(wavelength) = dialect.parse(&name[start..end]) else { continue };
         let (unit, suffix) = unit(&name[end..]);
@@ -85,6 +86,13 @@ fn band(dialect: Dialect, name: &str) -> Option<Band<'_>> {
     // `400_refl`
     let measured = |band: &Band<'_>| band.prefix.is_empty() && header_terms::role_of_bands(band.suffix).is_some();
     found.filter(|band| band.is_known() || band.suffix.is_empty() && word(band) || measured(band))
+}
+
+/// Length of the exponent that a text begins with, such as `e+03`.
+fn exponent(text: &str) -> usize {
+    let digits = text.strip_prefix(['e', 'E']).and_then(|rest| rest.strip_prefix(['+', '-'])).unwrap_or_default();
+    let count = digits.bytes().take_while(u8::is_ascii_digit).count();
+    if count > 0 { count + 2 } else { 0 }
 }
 
 /// Without the brackets around a wavelength: `Rrs(412)`, `R[400 nm]`.

@@ -1,7 +1,8 @@
 //! Evidence beside a file: its metadata, and the names of the file and its folders.
 
-use crate::decision::{Decided, Role};
+use crate::decision::{Decided, Role, WavelengthUnit};
 use crate::grid::Grid;
+use crate::header_terms::XUnit;
 use crate::text::{excerpt, is_one};
 use crate::uncertainty_terms;
 
@@ -38,6 +39,17 @@ pub(super) fn take(source: Source<'_>, grid: &mut Grid) {
     let stem = file_stem(source.path).map(words).unwrap_or_default();
     let clues = &mut grid.header.clues;
     clues.uncertainties = clues.uncertainties.or(uncertainty_terms::is_title(&stem.join(" ")).then_some(0));
+    // Axes of Raman spectra are shifts, which number no wavelengths.
+    let is_raman = source.path.rsplit(['/', '\\']).take(4).flat_map(words).any(|word| word.starts_with("raman"));
+    let header = &mut grid.header;
+    if is_raman
+        && grid.unit.is_none()
+        && matches!(header.x_unit, None | Some((_, XUnit::Wavelength(WavelengthUnit::Wavenumber))))
+    {
+        let line = header.x_unit.map_or(header.line, |(line, _)| Some(line));
+        (header.x_unit, grid.label_unit) = (Some((line.unwrap_or(1), XUnit::Other)), None);
+    }
+    let clues = &mut grid.header.clues;
     clues.quantum = stem.iter().any(|word| is_one(word, "qe|eqe|quantum"));
 }
 

@@ -9,7 +9,7 @@ use crate::error::{MAX_CURVES, MAX_SAMPLES, ReadError, check_curves, check_sampl
 use crate::grid::{Grid, RawCurve};
 use crate::header::{self, Header};
 use crate::no_curve::{FEWEST_ROWS, is_empty};
-use crate::text::{Lines, Section, comment, excerpt, has_word, lower};
+use crate::text::{Lines, Section, comment, excerpt, has_word, is_one, lower};
 use crate::warning::{LineList, Warning};
 use crate::watch::Log;
 use crate::{header_terms, unit_text, wavelengths};
@@ -26,8 +26,10 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
     let header = header::read(section, layout);
     let chosen = layout.wavelength_column.map(|column| column.saturating_sub(1));
     let mut columns = Columns::new(layout, chosen.or_else(|| header_terms::axis(&header.names)));
-    // A column with a name of its own holds no notes.
-    let named = (0..layout.width.min(128)).filter(|column| header.name(*column).is_some());
+    // A column with a name of its own holds no notes, unless that says so.
+    const NOTES: &str = "note|notes|comment|comments|remark|remarks|feature|features|label|labels|description";
+    let is_curve = |column: &usize| header.name(*column).is_some_and(|name| !is_one(&name.to_lowercase(), NOTES));
+    let named = (0..128).filter(is_curve);
     columns.ended = section.text.ends_with(char::is_whitespace);
     columns.notes.gaps = named.fold(layout.gaps, |gaps, column| gaps & !(1 << column));
     let header_line = header.line.and_then(|names| Lines::of(section).find(|(number, _)| *number == names));
@@ -190,7 +192,8 @@ impl Columns {
     fn take_header(&mut self, line: usize) {
         let error = ReadError::NotANumber { line, column: 1, text: String::new() };
         let nothing = Broken { line, begins_with_number: false, has_numbers: false, is_header: true, others: 0, error };
-        self.broken.get_or_insert(nothing);
+        // What stands between a table and the same names is the title of another, with numbers or not.
+        self.broken.get_or_insert(nothing).has_numbers = false;
     }
 
     /// Returns whether a comment is a row that was commented out, or one that begins with `#` for another reason.
@@ -403,7 +406,8 @@ impl Columns {
 }
 
 fn raw_curve(header: &Header, column: usize, only: bool, values: Vec<f64>) -> RawCurve {
-    let title = header.comment("title").filter(|_| only);
+    let titles = ["title", "name", "sample", "sample name"].into_iter().filter(|_| only);
+    let title = titles.filter_map(|key| header.comment(key)).find(|title| !title.is_empty());
     // What is measured names no sample, where there is only one.
     let named =
         header.name(column).map(unit_text::without_unit).filter(|name| !(only && header_terms::is_quantity(name)));
@@ -460,7 +464,7 @@ struct Notes {
 impl Notes {
     fn may_stand(&self, column: usize, row: usize, dialect: Dialect) -> bool {
         let beside = column >= self.width && row == self.rows && dialect.delimiter != Delimiter::Spaces;
-        beside || column < self.width.min(128) && self.gaps >> column & 1 == 1
+        beside || column < 128 && self.gaps >> column & 1 == 1
     }
 }
 

@@ -106,6 +106,11 @@ pub enum ReadError {
         "line {line}: numbers from {min} to {max} may be ångströms, wave numbers (1/cm) or infrared nanometers: choose the wavelength unit"
     )]
     AmbiguousUnit { line: usize, min: f64, max: f64 },
+    #[error(
+        "line {line}: numbers from {max} down to {min} may be energies of photons (eV) or micrometers: choose micrometers, or convert to \
+         wavelengths in nm"
+    )]
+    AmbiguousEnergies { line: usize, min: f64, max: f64 },
     #[error("line {0}: commas separate numbers and seem to mark fractions: choose decimal commas, or points if not")]
     AmbiguousCommas(usize),
     #[error(

@@ -109,6 +109,10 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
         if header.take_fields(number, line, layout).is_some() {
             continue;
         }
+        if let Some((key, value)) = comment(line).and_then(card) {
+            header.take_comment(number, key, value);
+            continue;
+        }
         if let Some((key, value)) = braced(line) {
             if key == "Units, Wavelength Units" && layout.width == GLAZING.len() {
                 named_above = Some((number, GLAZING.map(str::to_owned).to_vec()));
@@ -178,6 +182,19 @@ fn braced(line: &str) -> Option<(&str, &str)> {
     let (inner, rest) = line.trim().strip_prefix("{ ")?.split_once('}')?;
     let (key, value) = inner.split_once(':').unwrap_or((inner, rest));
     Some((key.trim(), value.trim()))
+}
+
+/// Key and text of a line of a FITS header in a comment: `XUNITS  = 'um      ' / x units`.
+fn card(body: &str) -> Option<(&str, &str)> {
+    let (key, rest) = body.split_once('=')?;
+    let key = match key.trim_end() {
+        "XUNITS" => "x units",
+        "YUNITS" => "y units",
+        key => key,
+    };
+    let is_key = key.len() <= 8 && !key.is_empty() && !key.contains(char::is_whitespace) || key.contains(" units");
+    let (value, _) = rest.trim_start().strip_prefix('\'')?.split_once('\'')?;
+    Some((key, value.trim())).filter(|(_, value)| is_key && !value.is_empty())
 }
 
 /// Number and name of a column in a comment: `Column 1: wavelength nm`, `Column 2 = flux`.

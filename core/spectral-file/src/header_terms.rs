@@ -345,6 +345,12 @@ pub(super) fn is_label(name: &str) -> bool {
     is_one(lower(name).trim(), "sample_id|sample id|sampleid|id|flag|quality|channel|scan|band|n|no|no.|#")
 }
 
+/// Returns whether a column's header explains codes: `Source (0 = model, 1 = optical spectrum)`.
+pub(super) fn lists_codes(name: &str) -> bool {
+    let bare: String = name.chars().filter(|c| *c != ' ').collect();
+    bare.contains("0=") && bare.contains("1=")
+}
+
 /// Returns whether the name of bands says how specular reflection was treated: included (SCI) or excluded (SCE).
 pub(super) fn says_specular(text: &str) -> bool {
     has_word(&lower(text), "sci|sce|spin|spex")

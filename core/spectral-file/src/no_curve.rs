@@ -166,6 +166,8 @@ fn raw_marks(curves: &[RawCurve]) -> Option<Vec<bool>> {
     let processed = curves.iter().any(is_processed);
     let reflected = curves.iter().any(|curve| curve.name.eq_ignore_ascii_case("reflectance"));
     let starts = |curve: &RawCurve, start: &str| curve.label.to_lowercase().starts_with(start);
+    let radiant = |curve: &RawCurve| starts(curve, "rad. (") || starts(curve, "irrad. (");
+    let radiates = !processed && curves.iter().any(radiant);
     // The logarithm of what stands beside it.
     let logged = curves.iter().any(|curve| starts(curve, "reflect."));
     let raw = |curve: &RawCurve| {
@@ -173,7 +175,8 @@ fn raw_marks(curves: &[RawCurve]) -> Option<Vec<bool>> {
         // Light that came from the sample is recorded beside its reflectance.
         let light = reflected && is_one(&curve.name.to_lowercase(), "radiance|irradiance");
         let log = logged && starts(curve, "-log reflect.");
-        if jaz { curve.name != "P" } else { light || log || processed && !is_processed(curve) && raw }
+        let counts = radiates && !radiant(curve) && raw;
+        if jaz { curve.name != "P" } else { light || log || counts || processed && !is_processed(curve) && raw }
     };
     let marks: Vec<bool> = curves.iter().map(raw).collect();
     (marks.contains(&true) && marks.contains(&false)).then_some(marks)

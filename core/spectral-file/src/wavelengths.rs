@@ -49,6 +49,11 @@ fn unit_from_range(grid: &Grid) -> Result<Decided<WavelengthUnit>, ReadError> {
     let steady = 4 * rises.max(falls) >= 3 * steps().count();
     let in_order = is_named(grid) || steady && grid.wavelengths.iter().any(|wavelength| wavelength.fract() != 0.0);
     let (min, max) = extent(grid.wavelengths.iter().copied());
+    let line = grid.line(0);
+    // Energies that rise with wave numbers fall as wavelengths rise, which few tables of micrometers do.
+    if (0.5..6.5).contains(&min) && max <= 6.5 && steady && falls > rises && !is_named(grid) {
+        return Err(ReadError::AmbiguousEnergies { line, min, max });
+    }
     let unit = if min >= 1e-7 && max <= 25e-6 && in_order {
         WavelengthUnit::Meter
     } else if min >= 0.1 && max <= 25.0 && in_order {
@@ -58,10 +63,15 @@ fn unit_from_range(grid: &Grid) -> Result<Decided<WavelengthUnit>, ReadError> {
         WavelengthUnit::Angstrom
     } else if min >= 10_000.0 && max <= 100_000.0
         || min >= 2000.0 && (3000.0..=20_000.0).contains(&max)
-        || (1000.0..3800.0).contains(&min) && (20_000.0..=100_000.0).contains(&max)
+        || (1000.0..3800.0).contains(&min) && (8000.0..=100_000.0).contains(&max)
     {
-        return Err(ReadError::AmbiguousUnit { line: grid.line(0), min, max });
-    } else if is_bare(grid) && min >= 390.0 && max > 3300.0 && min < 2000.0 && max <= 10_000.0 {
+        return Err(ReadError::AmbiguousUnit { line, min, max });
+    } else if (is_bare(grid) || steady && falls > rises && !is_named(grid))
+        && min >= 390.0
+        && max > 3300.0
+        && min < 2000.0
+        && max <= 10_000.0
+    {
         // No spectrometer for light reaches so far from there, but those for the infrared all do.
         WavelengthUnit::Wavenumber
     } else {
@@ -106,6 +116,10 @@ fn is_bare(grid: &Grid) -> bool {
 /// Where light ceases to be seen, and how many rows there are to one that is a last few.
 const VISIBLE_TO_NM: f64 = 780.0;
 const FEW: usize = 10;
+/// Where numbers may begin that are ångströms if they reach as far as from the second to the third, beyond the range of nanometers.
+const ANGSTROMS: std::ops::RangeInclusive<f64> = 30.0..=250_000.0;
+const MOST_NM: f64 = 3000.0;
+const MOST_ANGSTROM: f64 = 2e6;
 
 /// Converts wavelengths to nanometers. Those beyond the range at one end of the table, where they go on in its order, are left out if
 /// the unit is no guess, or they are few, and most are within.
@@ -130,10 +144,21 @@ pub(super) fn to_nanometers(
     let within = marked.iter().position(|out| !out).unwrap_or(0);
     let within = within..within + nm.len() - count;
     let ordered = nm.windows(2).all(|pair| pair[0] < pair[1]) || nm.windows(2).all(|pair| pair[0] > pair[1]);
-    let sound = ordered && within.len() > 1 && within.len() >= count && nm.iter().all(|nm| *nm > 0.0);
+    let (least, most) = extent(nm.iter().copied());
+    // A single zero before the table, as of an empty row, is no wavelength.
+    let zero = nm[0] == 0.0 && count == 1 && FEW < nm.len();
+    let sound = ordered && within.len() > 1 && within.len() >= count && (least > 0.0 || zero);
     let guessed = (unit.value, unit.certainty) == (WavelengthUnit::Nanometer, Certainty::Guess);
     // From light that is seen on, a last few in the far infrared do not make it another unit.
-    let few = nm[0] < VISIBLE_TO_NM && FEW * count <= nm.len();
+    let few = zero || (RANGE_NM.start()..&VISIBLE_TO_NM).contains(&&nm[0]) && FEW * count <= nm.len();
+    let error = match error {
+        ReadError::WavelengthOutOfRange { .. }
+            if guessed && ANGSTROMS.contains(&least) && (MOST_NM..=MOST_ANGSTROM).contains(&most) =>
+        {
+            ReadError::AmbiguousUnit { line: grid.line(0), min: least, max: most }
+        }
+        error => error,
+    };
     if guessed && !few || !sound || marked[within].contains(&true) {
         return Err(error);
     }

@@ -108,20 +108,25 @@ pub struct SiteResponses {
     blocks: Vec<[[f64; LANES]; SITES]>,
 }
 
+/// Responses to spectra of a deviation of 1 at each site, integrated over 400–700 nm as tables are, with half weights at the ends.
+pub fn site_responses(spectra: &[[f64; COUNT]]) -> Vec<[f64; SITES]> {
+    let sites: [[f64; COUNT]; SITES] = std::array::from_fn(|site| {
+        let mut weighted = site_curve(site);
+        for end in SITE_RANGE {
+            weighted[end] *= 0.5;
+        }
+        weighted
+    });
+    spectra.iter().map(|spectrum| sites.each_ref().map(|site| dot(site, spectrum))).collect()
+}
+
 impl SiteResponses {
-    /// Responses to these spectra, integrated over 400–700 nm as tables are, with half weights at the ends.
-    pub fn new(spectra: &[[f64; COUNT]]) -> Self {
-        let sites: [[f64; COUNT]; SITES] = std::array::from_fn(|site| {
-            let mut weighted = site_curve(site);
-            for end in SITE_RANGE {
-                weighted[end] *= 0.5;
-            }
-            weighted
-        });
-        let block = |spectra: &[[f64; COUNT]]| {
-            sites.each_ref().map(|site| std::array::from_fn(|lane| spectra.get(lane).map_or(0.0, |of| dot(site, of))))
+    /// These responses to each spectrum.
+    pub fn new(responses: &[[f64; SITES]]) -> Self {
+        let block = |responses: &[[f64; SITES]]| {
+            std::array::from_fn(|site| std::array::from_fn(|lane| responses.get(lane).map_or(0.0, |of| of[site])))
         };
-        Self { count: spectra.len(), blocks: spectra.chunks(LANES).map(block).collect() }
+        Self { count: responses.len(), blocks: responses.chunks(LANES).map(block).collect() }
     }
 
     /// Responses of the three channels' deviations, for each spectrum.

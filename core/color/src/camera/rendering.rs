@@ -333,6 +333,17 @@ impl FitTargets {
         Ok(Self { targets: targets.collect(), reference: rendering })
     }
 
+    /// Other targets under the same conditions.
+    #[must_use]
+    pub fn with(&self, targets: Vec<DVec3>) -> Self {
+        Self { targets, reference: self.reference.clone() }
+    }
+
+    /// XYZ of each training reflectance.
+    pub fn targets(&self) -> &[DVec3] {
+        &self.targets
+    }
+
     /// Transform of balanced samples to the targets.
     ///
     /// # Errors

@@ -104,6 +104,25 @@ impl Metric {
         })
     }
 
+    /// Differences of pairs; none where a coordinate is undefined.
+    pub fn between_each<'a, T: Coordinates + 'a>(
+        self,
+        mut pairs: impl Iterator<Item = (&'a T, &'a T)>,
+    ) -> Option<Vec<f64>> {
+        if self != Self::DELTA_E_2000 {
+            return pairs.map(|(reference, sample)| self.between(reference, sample)).collect();
+        }
+        let (references, samples): (Vec<Lab>, Vec<Lab>) =
+            pairs.try_fold((Vec::new(), Vec::new()), |(mut first, mut second), (reference, sample)| {
+                first.push(reference.lab()?);
+                second.push(sample.lab()?);
+                Some((first, second))
+            })?;
+        let mut answers = vec![0.0; samples.len()];
+        delta_e_2000_into(&references, &samples, &mut answers);
+        Some(answers)
+    }
+
     /// Name in figures. Eq 13 takes any RGB as sRGB: there a formula of L*a*b* gives a number, but no CIE color difference.
     pub const fn name(self, by_eq_13: bool) -> &'static str {
         if by_eq_13 && self.needs_adopted_white() { "Δ of Eq 13 colors" } else { self.symbol }
@@ -222,6 +241,9 @@ pub fn delta_e_2000_vector(first: Lab, second: Lab) -> [f64; 3] {
 pub fn delta_e_2000_into(firsts: &[Lab], seconds: &[Lab], answers: &mut [f64]) {
     let count = firsts.len().min(seconds.len()).min(answers.len());
     let (firsts, seconds, answers) = (&firsts[..count], &seconds[..count], &mut answers[..count]);
+    if count <= CHUNK {
+        return ciede2000::fill(firsts, seconds, answers);
+    }
     let pairs = firsts.par_chunks(CHUNK).zip(seconds.par_chunks(CHUNK)).zip(answers.par_chunks_mut(CHUNK));
     pairs.for_each(|((firsts, seconds), answers)| ciede2000::fill(firsts, seconds, answers));
 }

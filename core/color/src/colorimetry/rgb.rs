@@ -37,7 +37,7 @@ pub fn srgb_white() -> Xyz {
 }
 
 /// A color as a screen shows it, and whether it had to be moved into the screen's range.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct EncodedSrgb {
     /// Eight bits a channel.
     pub bytes: [u8; 3],

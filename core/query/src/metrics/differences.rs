@@ -70,11 +70,27 @@ impl DifferenceConditions {
         reference: &PatchColor,
         sample: &PatchColor,
     ) -> Result<f64, WhyNot> {
-        self.comparable?;
-        if self.by_eq_13 && metric.needs_adopted_white() {
-            return Err(WhyNot::Eq13);
-        }
+        self.defines(metric)?;
         Ok(difference(metric, reference, sample)?)
+    }
+
+    /// Differences of pairs.
+    pub(super) fn each(
+        &self,
+        metric: Metric,
+        references: &[PatchColor],
+        samples: &[PatchColor],
+    ) -> Result<Vec<f64>, WhyNot> {
+        self.defines(metric)?;
+        let pairs = || references.iter().zip(samples);
+        metric
+            .between_each(pairs())
+            .map_or_else(|| pairs().map(|(reference, sample)| Ok(difference(metric, reference, sample)?)).collect(), Ok)
+    }
+
+    fn defines(&self, metric: Metric) -> Result<(), WhyNot> {
+        self.comparable?;
+        if self.by_eq_13 && metric.needs_adopted_white() { Err(WhyNot::Eq13) } else { Ok(()) }
     }
 
     pub(super) fn lch(&self, reference: &PatchColor, sample: &PatchColor) -> Option<[f64; 3]> {

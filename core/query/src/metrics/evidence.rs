@@ -222,9 +222,11 @@ impl<'a> Evidence<'a> {
 
     /// Statistic of the differences by the metric at this place of `Metric::ALL`.
     pub(super) fn statistic(&self, metric: usize, of: Statistic) -> Result<f64, WhyNot> {
-        let by =
-            |reference: &PatchColor, sample: &PatchColor| self.way.difference(Metric::ALL[metric], reference, sample);
-        let values = self.by_metric[metric].get_or_init(|| self.of_pairs(by));
+        let values = self.by_metric[metric].get_or_init(|| {
+            let reference = (*self.reference).as_ref().map_err(|&e| e)?;
+            let colors = self.colors.as_ref().map_err(|&e| e)?;
+            self.way.each(Metric::ALL[metric], reference, colors)
+        });
         of.over(values.clone()?).ok_or(WhyNot::NoPatches)
     }
 

@@ -8,18 +8,20 @@ use super::evidence::{
 use super::table::CameraMetric;
 use super::value::{CameraMetricsQuery, IndexConditions, WhyNot};
 use crate::ask::{Ask, Query, Shared};
-use crate::patches::{FitTargetsQuery, PatchColor, PatchColorsQuery, color};
-use chromascope_color::camera::curve_spread::{Deviation, SITES, SiteResponses, site_curve};
+use crate::patches::{FitTargetsQuery, PatchColor, PatchColorsQuery, unseen};
+use chromascope_color::camera::curve_spread::{Deviation, SITES, SiteResponses, site_curve, site_responses};
 use chromascope_color::camera::quality::{IndexSamples, ObserverSpace, SpaceQuality, curves};
 use chromascope_color::camera::{FitTargets, LocusDeviation, ReferenceLocus, Rendering, RenderingError};
-use chromascope_color::correction::RgbTransform;
+use chromascope_color::correction::classes::ClassWeights;
 use chromascope_color::correction::minimize::Refit;
+use chromascope_color::correction::{Correction, CorrectionMethod, RgbTransform};
 use chromascope_color::light::RadiationConstants;
 use chromascope_color::light::planckian::black_body;
 use chromascope_color::patch_set::PatchSet;
 use chromascope_color::spectral::grid::COUNT;
 use chromascope_color::spectral::{GridSpectrum, Sensor};
 use chromascope_color::units::Kelvin;
+use chromascope_math::dot::dot;
 use chromascope_math::normal::{coordinates, orthonormal};
 use glam::{DMat3, DVec3};
 use std::cell::LazyCell;
@@ -40,7 +42,7 @@ const PATCHES: usize = 24;
 pub(super) struct StimuliQuery {
     light: Shared<GridSpectrum>,
     patches: Shared<PatchSet>,
-    training: Option<Shared<PatchSet>>,
+    fit: Option<(FitTargetsQuery, Correction)>,
     index: IndexConditions,
     temperature: Kelvin,
     observer: Shared<Sensor>,
@@ -51,8 +53,12 @@ pub(super) struct Stimuli {
     spectra: Vec<[f64; COUNT]>,
     of_sites: SiteResponses,
     patches: Range<usize>,
-    training: Range<usize>,
     index: Range<usize>,
+    /// Place of the training reflectances, or of their coordinates: the last.
+    training: usize,
+    targets: Option<Result<FitTargets, RenderingError>>,
+    /// Orthonormal basis in which they have coordinates in place of themselves.
+    fewer: Option<Vec<Vec<f64>>>,
     observer: Option<ObserverSpace>,
     /// Orthonormal basis of the curves of the sites and of the observer.
     basis: Vec<Vec<f64>>,
@@ -67,7 +73,10 @@ impl StimuliQuery {
         Self {
             light: of.rendering.light.clone(),
             patches: of.patches.clone(),
-            training: of.rendering.transform.fit().map(|(_, training, _)| training.clone()),
+            fit: of.rendering.transform.fit().map(|(reference, training, correction)| {
+                let (reference, light) = (reference.clone(), of.rendering.light.clone());
+                (FitTargetsQuery { reference, light, training: training.clone() }, correction)
+            }),
             index: of.index.clone(),
             temperature: of.temperature,
             observer: of.reference.sensor.clone(),
@@ -79,7 +88,7 @@ impl Query for StimuliQuery {
     type Answer = Stimuli;
     const NAME: &'static str = "stimuli of metrics";
 
-    fn answer(&self, _: &impl Ask) -> Stimuli {
+    fn answer(&self, ask: &impl Ask) -> Stimuli {
         let index_light = &self.index.light;
         let equal = GridSpectrum::constant(1.0);
         let blackbody = black_body(self.temperature, RadiationConstants::Paper);
@@ -91,8 +100,31 @@ impl Query for StimuliQuery {
             first..spectra.len()
         };
         let patches = add(&self.light, &self.patches);
-        let training = self.training.as_ref().map_or(SINGLE..SINGLE, |training| add(&self.light, training));
         let index = add(index_light, &self.index.patches);
+        let training = self.fit.as_ref().map_or(index.end, |(fit, _)| add(&self.light, &fit.training).start);
+        let mut responses = site_responses(&spectra);
+        let mut targets = self.fit.as_ref().map(|(fit, _)| (*ask.ask(fit)).clone());
+        let mut fewer = None;
+        if let (Some((_, correction)), Some(Ok(targets))) = (&self.fit, &mut targets)
+            && correction.method == CorrectionMethod::LeastSquares
+            && correction.weights == ClassWeights::default()
+        {
+            // A fit by least squares is the same in coordinates of any orthonormal basis that samples and targets lie in.
+            let of_sites: Vec<Vec<f64>> =
+                (0..SITES).map(|site| responses[training..].iter().map(|of| of[site]).collect()).collect();
+            let wanted = channels(targets.targets());
+            let basis = orthonormal(Vec::new(), of_sites.iter().chain(&wanted));
+            let place = |at: usize| basis.get(at);
+            responses.truncate(training);
+            responses.extend(
+                (0..basis.len() + 3)
+                    .map(|at| std::array::from_fn(|site| place(at).map_or(0.0, |axis| dot(&of_sites[site], axis)))),
+            );
+            let along =
+                |at: usize| place(at).map_or(DVec3::ZERO, |axis| wanted.each_ref().map(|of| dot(of, axis)).into());
+            *targets = targets.with((0..basis.len() + 3).map(along).collect());
+            fewer = Some(basis);
+        }
         let observer = ObserverSpace::new(&self.observer);
         let sites: Vec<Vec<f64>> = (0..SITES).map(|site| site_curve(site).to_vec()).collect();
         let curves = curves(&self.observer);
@@ -100,11 +132,13 @@ impl Query for StimuliQuery {
         let (sites, seen) =
             (sites.iter().map(|of| coordinates(of, &basis)).collect(), curves.map(|of| coordinates(&of, &basis)));
         Stimuli {
-            of_sites: SiteResponses::new(&spectra),
+            of_sites: SiteResponses::new(&responses),
             spectra,
             patches,
-            training,
             index,
+            training,
+            targets,
+            fewer,
             observer,
             basis,
             sites,
@@ -113,7 +147,27 @@ impl Query for StimuliQuery {
     }
 }
 
+/// Values of red, green and blue.
+fn channels(of: &[DVec3]) -> [Vec<f64>; 3] {
+    [0, 1, 2].map(|channel| of.iter().map(|value| value[channel]).collect())
+}
+
 impl Stimuli {
+    /// Responses of a sensor to all stimuli.
+    fn raw(&self, sensor: &Sensor) -> Vec<DVec3> {
+        let mut raw: Vec<DVec3> =
+            self.spectra.iter().map(|spectrum| DVec3::from_array(sensor.integrate(spectrum))).collect();
+        if let Some(fewer) = &self.fewer {
+            let own = channels(&raw.split_off(self.training));
+            // What the sensor's own responses add to the basis has places of its own.
+            let basis = orthonormal(fewer.clone(), &own);
+            let along =
+                |at: usize| basis.get(at).map_or(DVec3::ZERO, |axis| own.each_ref().map(|of| dot(of, axis)).into());
+            raw.extend((0..fewer.len() + 3).map(along));
+        }
+        raw
+    }
+
     /// The observer's space and a camera's curves in coordinates of one orthonormal basis.
     fn space(&self, curves: &[Vec<f64>; 3]) -> Option<(ObserverSpace, [Vec<f64>; 3])> {
         let basis = orthonormal(self.basis.clone(), curves);
@@ -131,7 +185,6 @@ pub(super) struct Perturbed<'a> {
     stimuli: &'a Stimuli,
     peaks: DVec3,
     raw: Vec<DVec3>,
-    targets: Option<Arc<Result<FitTargets, RenderingError>>>,
     refit: Option<Refit>,
     conditioning: f64,
     index: Arc<Result<IndexSamples, RenderingError>>,
@@ -155,17 +208,13 @@ impl<'a> Perturbed<'a> {
         ask: &impl Ask,
     ) -> Option<Self> {
         let sensor = &of.rendering.sensor;
-        let raw: Vec<DVec3> = stimuli.spectra.iter().map(|s| DVec3::from_array(sensor.integrate(s))).collect();
+        let raw = stimuli.raw(sensor);
         let (reference, patches) = (of.reference.clone(), of.patches.clone());
         let rendering = ask.ask(&of.rendering);
         let rendering = (*rendering).as_ref().ok()?;
         let index = ask.ask(&IndexSamplesQuery(of.index.clone()));
         let curves = [0, 1, 2].map(|c: usize| (0..COUNT).map(|i| sensor.at_index(i)[c] / peaks[c]).collect());
         let mut found = Self {
-            targets: of.rendering.transform.fit().map(|(reference, training, _)| {
-                let (reference, light) = (reference.clone(), of.rendering.light.clone());
-                ask.ask(&FitTargetsQuery { reference, light, training: training.clone() })
-            }),
             refit: None,
             conditioning: rendering.conditioning,
             index_refit: None,
@@ -195,10 +244,10 @@ impl<'a> Perturbed<'a> {
     /// Fits near the camera's own, for those that are searched.
     fn near(&self, rendering: &Rendering) -> Option<Refit> {
         let (_, _, correction) = self.of.rendering.transform.fit()?;
-        let targets = self.targets.as_ref()?;
+        let targets = self.stimuli.targets.as_ref()?.as_ref().ok()?;
         let unity = rendering.xyz_from_signals * DMat3::from_diagonal(rendering.white);
-        let samples = balanced(&self.raw[self.stimuli.training.clone()], self.raw[LIGHT]);
-        (**targets).as_ref().ok()?.refit(&samples, &correction, &RgbTransform::Matrix(unity))
+        let samples = balanced(&self.raw[self.stimuli.training..], self.raw[LIGHT]);
+        targets.refit(&samples, &correction, &RgbTransform::Matrix(unity))
     }
 
     fn index_samples(&self, raw: &[DVec3]) -> Vec<DVec3> {
@@ -213,16 +262,17 @@ impl<'a> Perturbed<'a> {
 
     /// Metrics through another table of the camera.
     pub(super) fn values_through(&self, sensor: &Sensor) -> Vec<Result<f64, WhyNot>> {
-        let raw: Vec<DVec3> =
-            self.stimuli.spectra.iter().map(|spectrum| DVec3::from_array(sensor.integrate(spectrum))).collect();
-        self.metrics(&raw, || self.stimuli.observer.as_ref()?.quality(&curves(sensor)))
+        self.metrics(&self.stimuli.raw(sensor), || self.stimuli.observer.as_ref()?.quality(&curves(sensor)))
     }
 
     /// Some spectra that the camera's responses to all but determine its metrics: its own curves, the observer's, single stimuli and some of
     /// the patches.
     pub(super) fn leading(&self) -> Vec<Vec<f64>> {
-        let (single, patches) = self.stimuli.spectra.split_at(SINGLE);
-        let patches = patches.iter().step_by(patches.len().div_ceil(PATCHES).max(1));
+        let Stimuli { spectra, patches, index, training, .. } = self.stimuli;
+        let single = &spectra[..SINGLE];
+        let rest = [&spectra[patches.clone()], &spectra[*training..], &spectra[index.clone()]];
+        let count = spectra.len() - SINGLE;
+        let patches = rest.into_iter().flatten().step_by(count.div_ceil(PATCHES).max(1));
         let stimuli = single.iter().chain(patches).map(|spectrum| spectrum.to_vec());
         let observer = self.stimuli.observer.iter().flat_map(|observer| &observer.curves);
         self.curves.iter().chain(observer).cloned().chain(stimuli).collect()
@@ -234,7 +284,7 @@ impl<'a> Perturbed<'a> {
         let samples = LazyCell::new(|| self.index_samples(raw));
         let patches = &raw[self.stimuli.patches.clone()];
         let evidence = Evidence {
-            colors: part(|| rendering().map(|shown| patches.iter().map(|raw| color(shown, *raw)).collect())),
+            colors: part(|| rendering().map(|shown| patches.iter().map(|raw| unseen(shown, *raw)).collect())),
             locus: part(|| self.locus(rendering()?, raw[BLACKBODY])),
             space: part(|| space().ok_or(WhyNot::Dependent)),
             index: [0, 1].map(|by| {
@@ -254,11 +304,12 @@ impl<'a> Perturbed<'a> {
         if !integrals.cmpgt(DVec3::ZERO).all() {
             return Err(RenderingError::NoWhite);
         }
-        let (Some((_, _, correction)), Some(targets)) = (self.of.rendering.transform.fit(), &self.targets) else {
+        let (Some((_, _, correction)), Some(targets)) = (self.of.rendering.transform.fit(), &self.stimuli.targets)
+        else {
             return Rendering::by_paper(white, integrals, raw[FLAT], self.conditioning);
         };
-        let targets = (**targets).as_ref().map_err(|&e| e)?;
-        let samples = balanced(&raw[self.stimuli.training.clone()], integrals);
+        let targets = targets.as_ref().map_err(|&e| e)?;
+        let samples = balanced(&raw[self.stimuli.training..], integrals);
         let transform = match self.refit.as_ref().and_then(|refit| refit.matrix(&samples)) {
             Some(matrix) => RgbTransform::Matrix(matrix),
             None => targets.fit(&samples, &correction)?,

@@ -88,7 +88,8 @@ pub(super) fn column_list(header: &Header, columns: &[usize]) -> String {
 fn kind(header: &Header, at: usize, index: usize, wavelengths: &[f64], column: &[f64]) -> Kind {
     let name = header.name(at + 1 + index);
     let scale = || {
-        let label = |name| header_terms::is_label(name) && tells_rows_apart(column);
+        let codes = |name| header_terms::lists_codes(name) && column.iter().all(|value| value.fract() == 0.0);
+        let label = |name| header_terms::is_label(name) && tells_rows_apart(column) || codes(name);
         name.is_some_and(|name| {
             header_terms::names_time(name) || (header_terms::is_count(name) && counts(column)) || label(name)
         }) || is_other_scale(wavelengths, column)

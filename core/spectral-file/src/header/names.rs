@@ -101,7 +101,9 @@ impl Header {
     /// Takes the names of samples from the line above one that only says what was measured, `Wavelength (nm),%T,Wavelength (nm),%T`:
     /// each above its values, or above its wavelengths; also from above `X,Y,X,Y`, as digitizers of plots write.
     fn take_samples(&mut self, above: Option<&(usize, &str)>, first: bool, layout: &Layout) {
-        let Some(&(number, line)) = above.filter(|(_, line)| comment(line).is_none()) else { return };
+        // Cary WinUV says so of a spectrum without a name.
+        let is_name = |line: &str| comment(line).is_none() && !line.starts_with("Created as New Dataset");
+        let Some(&(number, line)) = above.filter(|(_, line)| is_name(line)) else { return };
         let cells = split(layout.dialect(), line);
         let is_axis = |column: usize| {
             let own = self.names.get(column).filter(|name| !name.is_empty());
@@ -122,9 +124,13 @@ impl Header {
             return;
         }
         let mut above: Vec<String> = vec![String::new(); self.names.len()];
-        // Shimadzu names its only curve so.
+        // Shimadzu names its only curve so; a code in the first line is a name, too.
+        let in_code = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_');
+        let is_code =
+            |title: &&str| first && title.chars().all(in_code) && title.contains(|c: char| c.is_ascii_digit());
         if let [title] = cells.as_slice()
-            && let (Some(name), [column]) = (title.strip_suffix(" - RawData"), values.as_slice())
+            && let Some(name) = title.strip_suffix(" - RawData").or(Some(title.as_str()).filter(is_code))
+            && let [column] = values.as_slice()
         {
             name.clone_into(&mut above[*column]);
         } else {

@@ -339,7 +339,8 @@ impl<'d, 'a, 'l, 'w> Walk<'d, 'a, 'l, 'w> {
             let cells = match value.written.as_bytes().first() {
                 Some(b'{') => of_numbers(&value.members()?),
                 Some(b'[') => value.pieces().map(|piece| (Cow::Borrowed(""), piece)).collect(),
-                _ => vec![(Cow::Borrowed(""), value.written)],
+                // Of numbers that are written as texts, too.
+                _ => vec![(Cow::Borrowed(""), value.written.trim_matches('"'))],
             };
             let written = if let Cow::Borrowed(written) = key { written } else { "" };
             rows.push(Row { sample: String::new(), wavelength: (wavelength, written), cells });
