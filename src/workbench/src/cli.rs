@@ -16,6 +16,7 @@ mod locus;
 mod matrix;
 mod outputs;
 mod patches;
+mod reading;
 mod recover;
 mod render;
 mod report;

@@ -127,8 +127,9 @@ impl<S: Deref<Target = Sensor>> ReferenceLocus<S> {
 /// Temperature in kelvins of the nearest point of a locus, and the distance from it.
 fn nearest(points: &[(f64, Uv60)], at: impl Fn(f64) -> Option<UvPrime>, color: Uv60) -> Option<(f64, f64)> {
     let away = |place: Uv60| (place.u - color.u).powi(2) + (place.v - color.v).powi(2);
-    let distance = |place: &(f64, Uv60)| away(place.1);
-    let nearest = (0..points.len()).min_by(|&a, &b| distance(&points[a]).total_cmp(&distance(&points[b])))?;
+    let nearer = |best: (usize, f64), (at, distance)| if distance < best.1 { (at, distance) } else { best };
+    let distances = points.iter().map(|(_, place)| away(*place)).enumerate();
+    let (nearest, _) = distances.fold((0, f64::INFINITY), nearer);
     if nearest == 0 || nearest + 1 == points.len() {
         return None;
     }

@@ -5,7 +5,7 @@
 
 use crate::camera::rendering::{Rendering, RenderingError, raw, under_light, white_divisors};
 use crate::colorimetry::lab::lab_from_xyz;
-use crate::colorimetry::{Xyz, delta_e_1976};
+use crate::colorimetry::{Lab, Xyz, delta_e_1976};
 use crate::correction::minimize::{Objective, Refit};
 use crate::correction::{Correction, CorrectionMethod, RgbTransform, Training};
 use crate::math::dot::dot;
@@ -32,6 +32,8 @@ const REFIT_ROUNDS: usize = 4;
 pub struct IndexSamples {
     white: Xyz,
     targets: Vec<DVec3>,
+    /// L\*a\*b\* of the targets.
+    wanted: Option<Vec<Lab>>,
 }
 
 impl IndexSamples {
@@ -44,7 +46,9 @@ impl IndexSamples {
         let product = under_light(observer, light);
         let white = DVec3::from_array(observer.integrate(light.values())) / divisors;
         let targets = patches.patches().iter().map(|patch| raw(&product, patch.grid.values()) / divisors);
-        Ok(Self { white: Xyz::from_vector(white), targets: targets.collect() })
+        let (white, targets) = (Xyz::from_vector(white), targets.collect::<Vec<_>>());
+        let wanted = targets.iter().map(|target| lab_from_xyz(Xyz::from_vector(*target), white)).collect();
+        Ok(Self { white, targets, wanted })
     }
 
     /// The index of a sensor under the same light and patches, with the transform of the fit.
@@ -91,10 +95,9 @@ impl IndexSamples {
 
     /// The index of samples through a transform.
     pub fn of(&self, samples: &[DVec3], transform: &RgbTransform) -> Option<f64> {
-        let lab = |xyz: DVec3| lab_from_xyz(Xyz::from_vector(xyz), self.white);
-        let differences = samples.iter().zip(&self.targets).map(|(sample, target)| {
-            let (found, wanted) = (lab(transform.xyz(*sample))?, lab(*target)?);
-            Some(delta_e_1976(found, wanted))
+        let differences = samples.iter().zip(self.wanted.as_ref()?).map(|(sample, wanted)| {
+            let found = lab_from_xyz(Xyz::from_vector(transform.xyz(*sample)), self.white)?;
+            Some(delta_e_1976(found, *wanted))
         });
         let sum: f64 = differences.sum::<Option<f64>>()?;
         Some(100.0 - 5.5 * sum / samples.len() as f64)

@@ -8,6 +8,7 @@ mod ciede2000;
 use super::lab::{Lab, lab_from_xyz};
 use super::tristimulus::{UvPrime, Xy, Xyz};
 use crate::units::eq_by;
+use glam::DVec3;
 use rayon::prelude::*;
 
 /// A color-difference metric.
@@ -192,7 +193,8 @@ pub const DELTA_E_2000_ERROR: f64 = 2e-15;
 /// CIE 1976 difference ΔE*ab: the Euclidean distance in L*a*b*.
 pub fn delta_e_1976(a: Lab, b: Lab) -> f64 {
     let (a, b) = (bounded(a), bounded(b));
-    (a.l - b.l).hypot(a.a - b.a).hypot(a.b - b.b)
+    // Bounded, they have squares.
+    DVec3::new(a.l - b.l, a.a - b.a, a.b - b.b).length()
 }
 
 /// CIE 1994 difference ΔE*94 for graphic arts, with unit parametric factors (CIE 116-1995).

@@ -392,8 +392,10 @@ pub fn rank_ranges(better: Better, values: &[MetricValue]) -> Vec<Option<[usize;
     let others = || merits.iter().flatten().copied();
     let count = others().count();
     let range = |own: (f64, Option<MetricUncertainty>)| {
-        let apart = || others().filter(move |&other| Difference::of(own, other).is_significant());
-        [1 + apart().filter(|other| other.0 < own.0).count(), count - apart().filter(|other| other.0 > own.0).count()]
+        let apart = others().filter(move |&other| Difference::of(own, other).is_significant());
+        apart.fold([1, count], |[first, last], other| {
+            [first + usize::from(other.0 < own.0), last - usize::from(other.0 > own.0)]
+        })
     };
     merits.iter().map(|own| own.map(range)).collect()
 }

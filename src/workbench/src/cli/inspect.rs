@@ -27,7 +27,7 @@ use spectral_file::{
 use super::arguments::{named, values};
 use super::error::{CliError, Result, refused};
 use super::outputs::{self, is_standard_output, put, show, stream};
-use super::request::read;
+use super::reading::read;
 use crate::atomic::{fitting, paths_beside};
 use crate::catalog::folders::{FolderFiles, NO_SPECTRA, leave_companions_out};
 use crate::catalog::import::Origin;

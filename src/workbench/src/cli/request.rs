@@ -1,31 +1,27 @@
 //! Conversion of arguments to a document: names and files become sensors and conditions.
 
 use std::ffi::{OsStr, OsString};
-use std::fmt::Display;
-use std::fs;
-use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
 use chromascope_core::correction::CorrectionMethod;
 use chromascope_core::query::Shared;
 use chromascope_core::units::Kelvin;
 use clap::ArgMatches;
-use spectral_file::{Certainty, MAX_BYTES, ReadError, SpectralFile, Values, Warning};
+use rayon::prelude::*;
+use spectral_file::Values;
 
 use super::arguments::{CommonArguments, FitArguments, Per, SourceArguments, Transform};
 use super::error::{CliError, Result, refused};
-use super::outputs::is_descriptor;
+use super::reading::{Read, Reading, check_curves, in_file, read};
 use crate::catalog::folders::{FolderFiles, NO_SPECTRA, leave_companions_out};
-use crate::catalog::import::{Origin, imported};
 use crate::catalog::names::{Found, find, telling_words};
 use crate::catalog::{Catalog, Entry};
 use crate::document::correction::CorrectionChoice;
-use crate::document::imported::{ImportOverrides, ImportedSet, Role};
+use crate::document::imported::{ImportedSet, Role};
 use crate::document::render::{LEAF, MeshChoice, SKIN};
 use crate::document::start::Start;
 use crate::document::{CHART, CIE_1931, Document, FIVE, Light, SetKind, Subset, TransformChoice, WhiteBalanceChoice};
 use crate::format::{Tally, display_path, io_reason};
-use crate::hosted;
 use crate::scene::{Caution, Scene, SceneError};
 use crate::terminal::{Remarks, say};
 
@@ -198,9 +194,15 @@ impl Request {
         }
         let found = FolderFiles::new(folder, &|| true);
         let FolderFiles { files, mut skipped, .. } = found.map_err(|error| in_file(folder, io_reason(&error)))?;
-        let mut names = Vec::new();
-        for file in &files {
-            match self.open(file, Role::Camera) {
+        let (mut names, reading) = (Vec::new(), self.reading());
+        let all: Vec<Result<Read>> = files.par_iter().map(|file| reading.file(file, Role::Camera)).collect();
+        for (file, read) in files.iter().zip(all) {
+            self.read.push(file.clone());
+            let set = match self.known(file, Role::Camera) {
+                Some(known) => Ok(known),
+                None => read.map(|read| self.remark(read)).and_then(|set| self.add(file, set)),
+            };
+            match set {
                 Ok(set) => names.push(set.name.clone()),
                 Err(CliError::NoSpectra(_)) => skipped.add(NO_SPECTRA, display_path(file)),
                 Err(error) => skipped.add("refused", error.to_string()),
@@ -383,14 +385,20 @@ impl Request {
 
     /// Reads a file as a set of the document's own, under a name that no other set has; says what had to be guessed.
     fn open(&mut self, path: &Path, role: Role) -> Result<Shared<ImportedSet>> {
-        let known =
-            self.document.own.iter().find(|own| {
-                own.role == role && own.path.as_deref().is_some_and(|own| own.as_os_str() == path.as_os_str())
-            });
-        if let Some(known) = known {
-            return Ok(known.clone());
+        if let Some(known) = self.known(path, role) {
+            return Ok(known);
         }
-        let mut set = self.read(path, role)?;
+        let set = self.read(path, role)?;
+        self.add(path, set)
+    }
+
+    /// The set of a file that was read already.
+    fn known(&self, path: &Path, role: Role) -> Option<Shared<ImportedSet>> {
+        let is_path = |own: &ImportedSet| own.path.as_deref().is_some_and(|own| own.as_os_str() == path.as_os_str());
+        self.document.own.iter().find(|own| own.role == role && is_path(own)).cloned()
+    }
+
+    fn add(&mut self, path: &Path, mut set: ImportedSet) -> Result<Shared<ImportedSet>> {
         check_curves(&set)?;
         let kind = SetKind::of_own(&set);
         if self.document.holder_of(kind, &set.name, None, self.catalog.names()).is_some() {
@@ -402,8 +410,24 @@ impl Request {
     }
 
     pub(super) fn read(&mut self, path: &Path, role: Role) -> Result<ImportedSet> {
-        let bytes = self.bytes(path)?;
-        self.read_bytes(path, &bytes, role)
+        self.read.push(path.to_owned());
+        let read = self.reading().file(path, role)?;
+        Ok(self.remark(read))
+    }
+
+    /// Reads bytes of a file with all its curves; says what had to be guessed.
+    pub(super) fn read_bytes(&mut self, path: &Path, bytes: &[u8], role: Role) -> Result<ImportedSet> {
+        let read = self.reading().bytes(path, bytes, role)?;
+        Ok(self.remark(read))
+    }
+
+    fn reading(&self) -> Reading {
+        Reading { values: self.values, per: self.per }
+    }
+
+    fn remark(&mut self, Read { set, remarks }: Read) -> ImportedSet {
+        remarks.iter().for_each(|words| self.remarks.0.add(words, set.file.clone()));
+        set
     }
 
     /// The bytes of a file that is then an input.
@@ -411,79 +435,12 @@ impl Request {
         self.read.push(path.to_owned());
         read(path).map_err(|error| in_file(path, io_reason(&error)))
     }
-
-    /// Reads bytes of a file with all its curves; says what had to be guessed.
-    pub(super) fn read_bytes(&mut self, path: &Path, bytes: &[u8], role: Role) -> Result<ImportedSet> {
-        let file = display_path(path);
-        let mut overrides = ImportOverrides::for_role(Some(role));
-        overrides.options.values = self.values.filter(|_| role.is_fraction());
-        let origin = Origin::on_disk(&file, path, bytes);
-        let unread = |error: ReadError| CliError::unread(format!("{file}: {error}"), &error);
-        let table = spectral_file::read(origin.source(bytes), &overrides.options).map_err(unread)?;
-        check_quantity(&file, role, &table, &mut self.remarks)?;
-        let table = table.usable().map_err(unread)?;
-        check_channels(&file, role, &table)?;
-        overrides.taken = Some((0..table.curves.len()).collect());
-        if role == Role::Camera {
-            overrides.per_photon = self.per.map(|per| per == Per::Photon);
-        }
-        let imported = imported(&origin, &table, &overrides);
-        if imported.guessed || !table.warnings.is_empty() {
-            let words = imported.message.strip_prefix(&*file).and_then(|rest| rest.strip_prefix(": "));
-            self.remarks.0.add(words.unwrap_or(&imported.message), file.clone());
-        }
-        let response = table.reading.per_photon.as_ref().filter(|_| role == Role::Camera && self.per.is_none());
-        if let Some(response) = response.filter(|response| response.certainty == Certainty::Guess) {
-            let what = if response.value { "photon" } else { "energy" };
-            let words = format!("assumed to be responses per {what}; set --per energy or --per photon");
-            self.remarks.0.add(&words, file.clone());
-        }
-        Ok(imported.set)
-    }
-}
-
-/// Reason that a file is of no use, after its path.
-pub(super) fn in_file(path: &Path, why: impl Display) -> CliError {
-    CliError::File(format!("{}: {why}", display_path(path)))
 }
 
 fn tell(argument: &str, typed: &str, found: &Found<'_>) {
     if let Some(note) = found.note() {
         say(&format!("chromascope: {argument} \"{typed}\": {note}\n"));
     }
-}
-
-/// A file's bytes, truncated just beyond the limit if it is too large. Pipes, sockets and devices are rejected, as in a folder:
-/// they may never end. File descriptors opened by the shell (`<(...)`) are read.
-pub(super) fn read(path: &Path) -> io::Result<Vec<u8>> {
-    if let Some(bytes) = hosted::bytes(path) {
-        return Ok(bytes.to_vec());
-    }
-    let known = fs::metadata(path)?;
-    if !(known.is_file() || known.is_dir() || is_shells(path, &known)) {
-        let why = "named pipes, sockets and devices are not supported; redirect to standard input and use \
-                   /dev/stdin, or `-` with inspect";
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, why));
-    }
-    if known.is_file() && known.len() > MAX_BYTES as u64 {
-        let megabytes = known.len().div_ceil(1 << 20) as usize;
-        return Err(io::Error::other(ReadError::TooLarge { megabytes, limit: MAX_BYTES >> 20 }));
-    }
-    let mut bytes = Vec::new();
-    fs::File::open(path)?.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes)?;
-    Ok(bytes)
-}
-
-/// True if a path is a pipe that the shell holds open for this command.
-#[cfg(unix)]
-fn is_shells(path: &Path, known: &fs::Metadata) -> bool {
-    use std::os::unix::fs::FileTypeExt as _;
-    (is_descriptor(path) || path == Path::new("/dev/stdin")) && known.file_type().is_fifo()
-}
-
-#[cfg(not(unix))]
-fn is_shells(_: &Path, _: &fs::Metadata) -> bool {
-    false
 }
 
 /// The name of a formula for light and its temperature in kelvins, as `daylight:6504`.
@@ -521,69 +478,4 @@ pub(super) fn say_light(scene: &Scene<'_>) -> Result<(), SceneError> {
         say(&format!("chromascope: {caution}\n"));
     }
     Ok(())
-}
-
-/// Rejects a file that states another quantity than its option takes, values of unknown scale, and values that no such quantity has;
-/// reports the use of a file that states none.
-fn check_quantity(path: &str, role: Role, table: &SpectralFile, remarks: &mut Remarks) -> Result<()> {
-    let refuse = |why: String| Err(CliError::File(format!("{path}: {why}")));
-    let content = &table.reading.content_role;
-    let other = content.value != role && !(content.value.is_fraction() && role.is_fraction());
-    if other && content.certainty == Certainty::Certain && content.value != Role::Unknown {
-        let option = match content.value {
-            Role::Camera => "--camera",
-            Role::Reflectance => "--chart",
-            Role::Transmittance => "--filter",
-            Role::Illuminant | Role::Unknown => "--illuminant, or patches --radiance for measured radiances",
-        };
-        let quantity = table.warnings.iter().find_map(|warning| match warning {
-            Warning::OtherQuantity { quantity, .. } => Some(quantity.to_string()),
-            _ => None,
-        });
-        let stated = quantity.unwrap_or_else(|| content.value.to_string());
-        let why = spectral_file::lowered(&content.why);
-        return refuse(format!("the file states {stated}, not {role} ({why}); use {option}, or correct its header"));
-    }
-    let values = &table.reading.values;
-    if role.is_fraction() && values.certainty == Certainty::Open {
-        let remedy = if role == Role::Transmittance {
-            "state it in the file, such as Transmittance (%)"
-        } else {
-            "add --values percent, or --values plain for fractions"
-        };
-        return refuse(format!("{}; {remedy}", values.why));
-    }
-    if other && content.certainty != Certainty::Certain {
-        let why = match content.certainty {
-            Certainty::Guess => format!("{}, which suggests {}", content.why, content.value),
-            _ => "the file does not state its quantity".to_owned(),
-        };
-        remarks.0.add(&format!("{why}; used as {role} because of the option"), path.to_owned());
-    }
-    Ok(())
-}
-
-/// Refuses sensitivities of which nothing says which are red, green and blue.
-fn check_channels(path: &str, role: Role, table: &SpectralFile) -> Result<()> {
-    let count = table.curves.len();
-    if role != Role::Camera || count <= 3 || table.reading.camera_columns.is_some() {
-        return Ok(());
-    }
-    let why = "red, green and blue are not identified; name the columns red, green and blue, or keep three";
-    Err(CliError::File(format!("{path}: {count} curves; {why}")))
-}
-
-/// True if a file holds as many curves as its use takes.
-fn check_curves(set: &ImportedSet) -> Result<()> {
-    let wanted = match set.role {
-        Role::Camera if set.curves.len() < 3 => "expected three for a camera: red, green and blue",
-        Role::Transmittance if set.curves.len() > 1 => "expected exactly one curve for a filter",
-        Role::Illuminant if set.curves.len() > 1 => "expected exactly one curve for an illuminant",
-        _ => return Ok(()),
-    };
-    let count = match set.curves.len() {
-        1 => "1 curve".to_owned(),
-        n => format!("{n} curves"),
-    };
-    Err(CliError::File(format!("{}: {count}; {wanted}", set.file)))
 }

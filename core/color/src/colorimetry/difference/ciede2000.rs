@@ -8,7 +8,7 @@ use crate::math::exp::exp;
 use multiversion::multiversion;
 
 /// Pairs that are worked on side by side.
-const LANES: usize = 64;
+const LANES: usize = 32;
 
 /// sin and cos of 6°, 30° and 63°, which the weighting of hues turns by.
 const SIN_6: f64 = 0.104_528_463_267_653_47;

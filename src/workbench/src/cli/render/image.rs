@@ -17,7 +17,7 @@ use super::setup::compared_request;
 use crate::catalog::spectral_images::{self, OpenImageError, ReadSignalsError};
 use crate::cli::error::{CliError, Result};
 use crate::cli::outputs::{self, show, write_to};
-use crate::cli::request::in_file;
+use crate::cli::reading::in_file;
 use crate::document::TransformChoice;
 use crate::document::render::RenderSettings;
 use crate::export::render::{exr_bytes, image_header, png_bytes};
