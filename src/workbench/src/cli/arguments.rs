@@ -13,6 +13,7 @@ use spectral_file::Values;
 
 use super::error::{CliError, Result};
 use super::outputs;
+use super::reading::Per;
 use super::request::Request;
 use crate::document::Pixel;
 use crate::document::start::Start;
@@ -167,15 +168,6 @@ fn weight(text: &str) -> Result<(ColorClass, f64), String> {
     let number = number.trim().parse::<f64>().ok().filter(|number| (0.0..=ClassWeights::MOST).contains(number));
     let number = number.ok_or_else(|| format!("a weight is a number from 0 to {}", ClassWeights::MOST))?;
     Ok((class, number))
-}
-
-/// Response basis of sensitivities.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum Per {
-    /// Equal energy at each wavelength
-    Energy,
-    /// Equal numbers of photons at each wavelength
-    Photon,
 }
 
 /// Temperature in kelvins of the locus metrics unless another is named.

@@ -15,9 +15,10 @@ use clap::{ArgMatches, Args, ValueEnum};
 use serde_json::{Value, json};
 use spectral_file::Values;
 
-use super::arguments::{Form, Per, form, values};
+use super::arguments::{Form, form, values};
 use super::error::{CliError, Result, refused};
 use super::outputs::{self, put};
+use super::reading::Per;
 use super::reading::in_file;
 use super::request::Request;
 use crate::catalog::chart_picture::{ChartPicture, is_picture};

@@ -11,9 +11,10 @@ use chromascope_profile::icc::IccVersion;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{ArgMatches, Args, ValueEnum};
 
-use super::arguments::{FitArguments, OutArguments, Per, method};
+use super::arguments::{FitArguments, OutArguments, method};
 use super::error::{Result, refused};
 use super::outputs;
+use super::reading::Per;
 use super::request::{Request, say_light};
 use crate::document::start::Start;
 use crate::export::profile::{

@@ -5,15 +5,24 @@ use std::fs;
 use std::io::{self, Read as _};
 use std::path::Path;
 
+use clap::ValueEnum;
 use spectral_file::{Certainty, MAX_BYTES, ReadError, SpectralFile, Values, Warning};
 
-use super::arguments::Per;
 use super::error::{CliError, Result};
 use super::outputs::is_descriptor;
 use crate::catalog::import::{Origin, imported};
 use crate::document::imported::{ImportOverrides, ImportedSet, Role};
 use crate::format::{display_path, io_reason};
 use crate::hosted;
+
+/// Response basis of sensitivities.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Per {
+    /// Equal energy at each wavelength
+    Energy,
+    /// Equal numbers of photons at each wavelength
+    Photon,
+}
 
 /// Options that hold for all files.
 #[derive(Clone, Copy)]

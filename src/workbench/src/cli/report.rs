@@ -5,10 +5,10 @@ use std::path::PathBuf;
 
 use clap::{ArgMatches, Args};
 
-use super::arguments::Per;
 use super::error::{CliError, Result};
 use super::figure::opened;
 use super::outputs::{self, show, write_to};
+use super::reading::Per;
 use super::render::make_folder;
 use super::render::setup::own_mesh;
 use super::request::Request;

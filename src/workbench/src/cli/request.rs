@@ -10,9 +10,9 @@ use clap::ArgMatches;
 use rayon::prelude::*;
 use spectral_file::Values;
 
-use super::arguments::{CommonArguments, FitArguments, Per, SourceArguments, Transform};
+use super::arguments::{CommonArguments, FitArguments, SourceArguments, Transform};
 use super::error::{CliError, Result, refused};
-use super::reading::{Read, Reading, check_curves, in_file, read};
+use super::reading::{Per, Read, Reading, check_curves, in_file, read};
 use crate::catalog::folders::{FolderFiles, NO_SPECTRA, leave_companions_out};
 use crate::catalog::names::{Found, find, telling_words};
 use crate::catalog::{Catalog, Entry};
