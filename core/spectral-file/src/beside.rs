@@ -95,7 +95,10 @@ fn of_name(name: &str) -> Option<(Role, bool)> {
     if let Some(at) = words.windows(2).position(|pair| pair == ["lamp", "black"]) {
         words.remove(at);
     }
-    let mut roles = words.iter().filter_map(|word| role_of_word(word));
+    let short = name.to_lowercase().replace(['_', '-', '.', ' '], "");
+    let is_solar = ["am0", "am15", "astmg"].iter().any(|sun| short.starts_with(sun));
+    let sun = is_solar.then_some(Role::Illuminant);
+    let mut roles = sun.into_iter().chain(words.iter().filter_map(|word| role_of_word(word)));
     let first = roles.next()?;
     Some((first, roles.all(|role| role == first)))
 }

@@ -342,7 +342,10 @@ pub(super) fn is_count(name: &str) -> bool {
 
 /// Returns whether a column's header names what tells rows apart and nothing else: samples, channels, scans, flags.
 pub(super) fn is_label(name: &str) -> bool {
-    is_one(lower(name).trim(), "sample_id|sample id|sampleid|id|flag|quality|channel|scan|band|n|no|no.|#")
+    is_one(
+        lower(name).trim(),
+        "sample_id|sample id|sampleid|id|flag|quality|channel|scan|band|n|no|no.|#|row|column|run",
+    )
 }
 
 /// Returns whether a column's header explains codes: `Source (0 = model, 1 = optical spectrum)`.

@@ -97,6 +97,7 @@ fn read_text(
     let mut found = formats::read(&text, options, &mut log)?;
     log.look(text.len())?;
     beside::take(source, &mut found.grid);
+    scale::doubt_absorbances(&mut found.grid);
     finish(found, encoding, options, source.covariance, log)
 }
 

@@ -31,6 +31,17 @@ pub(super) fn decide(grid: &Grid, options: &ReadOptions, log: &mut Log<'_>) -> S
     Scale { role, content, values, columns }
 }
 
+/// Coefficients of absorption are called absorbances, too, but no instrument measures such large ones: their heads say nothing.
+pub(super) fn doubt_absorbances(grid: &mut Grid) {
+    const MOST: f64 = 100.0;
+    for curve in &mut grid.curves {
+        let is_large = || curve.values.iter().any(|value| *value > MOST);
+        if header_terms::values(&curve.label) == Some(Values::Absorbance) && is_large() {
+            curve.label.clear();
+        }
+    }
+}
+
 #[derive(Debug)]
 pub(super) struct Scale {
     pub(super) role: Decided<Role>,

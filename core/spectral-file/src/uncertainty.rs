@@ -177,11 +177,13 @@ fn settle_uses(grid: &Grid, terms: &mut [Option<Term>]) -> Vec<Use> {
     if uses.iter().all(|place| *place != Use::Curve) { vec![Use::Curve; curves.len()] } else { uses }
 }
 
-/// Returns whether the words about a curve are those of one with a label and words of its own: its quantity, or the figures at its end.
+/// Returns whether the words about a curve are those of one with a label and words of its own: its quantity, or its last word or sign.
 fn is_about(term: &Term, label: &str, key: &str) -> bool {
     let quantity = header_terms::quantity(&term.of);
     quantity.is_some() && quantity == header_terms::quantity(label)
-        || term.of.bytes().all(|b| b.is_ascii_digit()) && key.split(' ').next_back() == Some(&*term.of)
+        || !term.of.is_empty()
+            && (key.split(' ').next_back() == Some(&*term.of)
+                || label.to_lowercase().ends_with(&format!("({})", term.of)))
 }
 
 /// Places the columns whose names tell no curve: behind one curve, behind the mean of several, or as many as the curves before them.

@@ -80,6 +80,9 @@ fn unit_from_range(grid: &Grid) -> Result<Decided<WavelengthUnit>, ReadError> {
     Ok(Decided::guess(unit, format!("Wavelengths run from {min} to {max}")))
 }
 
+/// Numbered columns from which on they are no curves beside a column of wavelengths.
+const MOST_COUNTED: usize = 10;
+
 /// Refuses a first column whose head names another quantity than wavelengths.
 fn no_other_axis(grid: &Grid) -> Result<(), ReadError> {
     let Some(column) = grid.wavelength_column.map(|column| column.saturating_sub(1)) else { return Ok(()) };
@@ -97,8 +100,12 @@ fn no_other_axis(grid: &Grid) -> Result<(), ReadError> {
             && name.parse::<f64>().is_err()
     };
     let bands = names.len() > 2 && names.iter().all(is_band);
+    // `abs1, abs2, …` are numbered samples of spectra, not their wavelengths.
+    let stem = names.first().and_then(|name| name.strip_suffix('1')).filter(|stem| !stem.is_empty());
+    let is_number = |(at, name): (usize, &String)| stem.is_some_and(|stem| *name == format!("{stem}{}", at + 1));
+    let counted = names.len() >= MOST_COUNTED && names.iter().enumerate().all(is_number);
     let named = names.first().is_some_and(|name| header_terms::names_other_axis(name) && !setting);
-    let other = named || tristimulus || bands;
+    let other = named || tristimulus || bands || counted;
     if other { Err(ReadError::NoWavelengths(grid.header.line.unwrap_or(1))) } else { Ok(()) }
 }
 

@@ -92,3 +92,52 @@ fn comments_name_a_single_curve() {
     let table = ok(&format!("{card}0.09\t1e-17\n0.5\t0.1\n0.6\t0.2\n0.7\t0.3\n"));
     assert_eq!((table.curves[0].wavelengths_nm[0], table.role.value), (500.0, Role::Illuminant));
 }
+
+#[test]
+fn remarks_in_first_rows_name_no_samples() {
+    let rows: String = (301..320).map(|nm| format!("{nm},1.{nm},{nm},0.{nm},2{nm},,\n")).collect();
+    let head =
+        "\"λ,n (nm)\",n,\"λ,k (nm)\",k,α (cm⁻¹),Reference,Details\n300,1.5,300,0.5,2300,\"A. Author\",sputtered\n";
+    let table = ok(&(head.to_owned() + &rows));
+    assert_eq!(names(&table), ["n", "k", "α (cm⁻¹)"]);
+    assert!(table.curves.iter().all(|curve| curve.values.len() == 20));
+}
+
+#[test]
+fn coefficients_of_absorption_are_no_absorbances() {
+    let table = ok("Wavelength (nm)\tabs\n400\t3782.2\n410\t17831\n420\t25300\n");
+    assert_eq!((names(&table)[0], table.role.value, table.curves[0].values[1]), ("abs", Role::Unknown, 17_831.0));
+    let table = ok("Wavelength (nm)\tabs\n400\t0.5\n410\t1\n420\t2\n");
+    assert_eq!((table.role.value, table.curves[0].values[1]), (Role::Transmittance, 0.1));
+}
+
+#[test]
+fn excitation_beside_emission_is_of_a_dye() {
+    let table = ok("wavelength,excitation,emission\n400,0.5,0.1\n410,0.6,0.2\n420,0.7,0.3\n");
+    assert_eq!((table.role.value, table.role.certainty), (Role::Unknown, Certainty::Open));
+}
+
+#[test]
+fn rows_of_rasters_and_numbered_columns_are_no_spectra() {
+    let table = ok("Row\tColumn\tWavelength nm\tO1A\n0\t0\t400\t0.5\n0\t0\t410\t0.6\n0\t0\t420\t0.7\n");
+    assert_eq!(names(&table), ["O1A"]);
+    let heads: Vec<String> = (1..=12).map(|at| format!("abs{at}")).collect();
+    let row = |by: f64| (0..12).map(|at| (by + 0.01 * f64::from(at)).to_string()).collect::<Vec<_>>().join(",");
+    let numbered = error(&[heads.join(","), row(0.5), row(0.625), row(0.75)].join("\n"));
+    assert!(matches!(numbered, ReadError::NoWavelengths(1)), "{numbered}");
+}
+
+#[test]
+fn a_sign_tells_what_an_error_is_of() {
+    let table = ok("wavelength (nm),radius_ratio (rr),error of rr\n400,0.5,0.01\n410,0.6,0.02\n420,0.7,0.03\n");
+    assert_eq!(table.curves.len(), 1);
+    assert!(table.curves[0].uncertainty.is_some());
+}
+
+#[test]
+fn the_sun_in_the_name_of_a_file_is_a_light() {
+    let text = rows("", &[400.0, 410.0, 420.0]);
+    let role = |path| read(Source { path, ..Source::from(&text) }, &ReadOptions::default()).unwrap().role;
+    assert_eq!((role("solar-cell/AM1.5G.txt").value, role("AM0.csv").certainty), (Role::Illuminant, Certainty::Guess));
+    assert_eq!(role("cam01.txt").value, Role::Unknown);
+}

@@ -41,6 +41,9 @@ fn read(text: &str, _: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadErr
         match (section, line - at) {
             ("#DATA", _) => break,
             ("", 2) => header.note(line, "file", cell),
+            ("", 3) if cell.contains(char::is_alphabetic) => {
+                header.note(line, "title", cell.rsplit_once('.').map_or(cell, |(stem, _)| stem));
+            }
             ("#GR", below) if below == UNITS[0] => {
                 header.x_unit = header_terms::x_unit(cell).map(|unit| (line, unit));
                 header.note(line, "x units", cell);

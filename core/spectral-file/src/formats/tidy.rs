@@ -94,6 +94,10 @@ impl Plan {
             cells.filter(|cell| is_key(cell, named)).map(|(column, _)| column).collect()
         };
         let keys = Some(keys(KEYS)).filter(|keys| !keys.is_empty()).unwrap_or_else(|| keys(ANGLES));
+        // Remarks beside the first rows name no samples.
+        let is_filled = |key: &usize, row: &str| dialect.cells(row).nth(*key).is_some_and(|cell| !cell.is_empty());
+        let filled = |key: &usize| 2 * rows.iter().filter(|(_, row)| is_filled(key, row)).count() > rows.len();
+        let keys: Vec<usize> = keys.into_iter().filter(filled).collect();
         let is_row = |(_, row): &(usize, &str)| {
             let mut cells = dialect.cells(row).take(names.len() + 1).enumerate();
             let sound = |(at, cell): (usize, &str)| keys.contains(&at) || dialect.parse(cell) != Cell::Text;

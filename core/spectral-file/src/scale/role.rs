@@ -5,7 +5,7 @@ use crate::grid::{Grid, RawCurve};
 use crate::header_terms::{self, Channel, XUnit};
 use crate::report::Curve;
 use crate::scale::values::{Evidence, LARGEST_PERCENT, Looks};
-use crate::text::excerpt;
+use crate::text::{excerpt, has_word};
 use crate::{quantity, uncertainty_terms, unit_text};
 
 /// Counts of detectors are larger, irradiances and radiances in the usual units smaller.
@@ -30,6 +30,13 @@ fn stated(grid: &Grid) -> Option<Decided<Role>> {
     }
     if let Some(beside) = grid.beside.as_ref().filter(|beside| beside.certainty == Certainty::Certain) {
         return named(grid).or_else(|| of_settings(grid)).or_else(|| Some(beside.clone()));
+    }
+    let excited = |curve: &RawCurve| has_word(&curve.name.to_lowercase(), "excitation");
+    if grid.curves.iter().any(excited) && !grid.curves.iter().all(excited) {
+        return Some(Decided::open(
+            Role::Unknown,
+            "Excitation and what is emitted are of a dye, neither a light nor a filter",
+        ));
     }
     let names: Vec<&str> = grid.curves.iter().take(MOST_CHANNELS + 1).map(|curve| curve.name.as_str()).collect();
     let channels = channels(&names).map(|(_, letters)| {

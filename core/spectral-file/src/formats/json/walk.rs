@@ -330,6 +330,11 @@ impl<'d, 'a, 'l, 'w> Walk<'d, 'a, 'l, 'w> {
         if keys.is_empty() || !known && (keys.len() < FEWEST_GUESSED || !is_plausible(&keys)) {
             return Ok(false);
         }
+        // Colors of wavelengths, too, are keyed so.
+        let is_color = |(_, value): (&Cow<'a, str>, Value<'a>)| value.written.starts_with("\"#");
+        if members.each().all(is_color) {
+            return Ok(false);
+        }
         let mut rows = Vec::with_capacity(keys.len());
         for (key, value) in members.each() {
             let Some(wavelength) = number(key) else {
