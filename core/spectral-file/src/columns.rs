@@ -22,13 +22,15 @@ pub(super) struct Read {
     pub(super) note: Option<Decision>,
 }
 
+/// Names of columns of notes.
+const NOTES: &str = "note|notes|comment|comments|remark|remarks|feature|features|label|labels|description|\
+    reference|reference text|details";
+
 pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> Result<Read, ReadError> {
     let header = header::read(section, layout);
     let chosen = layout.wavelength_column.map(|column| column.saturating_sub(1));
     let mut columns = Columns::new(layout, chosen.or_else(|| header_terms::axis(&header.names)));
     // A column with a name of its own holds no notes, unless that says so.
-    const NOTES: &str = "note|notes|comment|comments|remark|remarks|feature|features|label|labels|description|\
-        reference|reference text|details";
     let is_curve = |column: &usize| header.name(*column).is_some_and(|name| !is_one(&name.to_lowercase(), NOTES));
     let named = (0..128).filter(is_curve);
     columns.ended = section.text.ends_with(char::is_whitespace);

@@ -95,10 +95,10 @@ fn comments_name_a_single_curve() {
 
 #[test]
 fn remarks_in_first_rows_name_no_samples() {
-    let rows: String = (301..320).map(|nm| format!("{nm},1.{nm},{nm},0.{nm},2{nm},,\n")).collect();
+    let rows: Vec<String> = (301..320).map(|nm| format!("{nm},1.{nm},{nm},0.{nm},2{nm},,\n")).collect();
     let head =
         "\"λ,n (nm)\",n,\"λ,k (nm)\",k,α (cm⁻¹),Reference,Details\n300,1.5,300,0.5,2300,\"A. Author\",sputtered\n";
-    let table = ok(&(head.to_owned() + &rows));
+    let table = ok(&(head.to_owned() + &rows.concat()));
     assert_eq!(names(&table), ["n", "k", "α (cm⁻¹)"]);
     assert!(table.curves.iter().all(|curve| curve.values.len() == 20));
 }

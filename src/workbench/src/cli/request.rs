@@ -426,7 +426,9 @@ impl Request {
     }
 
     fn remark(&mut self, Read { set, remarks }: Read) -> ImportedSet {
-        remarks.iter().for_each(|words| self.remarks.0.add(words, set.file.clone()));
+        for words in &remarks {
+            self.remarks.0.add(words, set.file.clone());
+        }
         set
     }
 
