@@ -544,7 +544,7 @@ impl Patches<'_> {
             let words = format!("{patch} {}", fixed(vector[0].hypot(vector[1]), self.decimals));
             let [x, y] = target.at([0.0; 2]);
             let toward = [(x - end[0]).signum(), (y - end[1]).signum()];
-            let places = [7.0, 12.0, 20.0, 30.0].into_iter().flat_map(|far| Place::around(end, toward, far));
+            let places = [7.0, 12.0].into_iter().flat_map(|far| Place::around(end, toward, far));
             let places: Vec<Place> = places.filter(|place| target.holds(&words, place)).collect();
             let label = Label::new(words, if is_pointed { InkRole::Text } else { InkRole::Weak }, places);
             texts.push(Label { tag, always: is_pointed, ..label });
