@@ -40,7 +40,11 @@ pub(super) fn take(source: Source<'_>, grid: &mut Grid) {
     let clues = &mut grid.header.clues;
     clues.uncertainties = clues.uncertainties.or(uncertainty_terms::is_title(&stem.join(" ")).then_some(0));
     // Axes of Raman spectra are shifts, which number no wavelengths.
-    let is_raman = source.path.rsplit(['/', '\\']).take(4).flat_map(words).any(|word| word.starts_with("raman"));
+    let folders: Vec<&str> = source.path.rsplit(['/', '\\']).take(5).collect();
+    // Raman is a person's name, too.
+    let is_user = |at: usize| folders.get(at + 1).is_some_and(|above| is_one(&above.to_lowercase(), "home|users"));
+    let names_raman = |at: usize| !is_user(at) && words(folders[at]).iter().any(|word| word == "raman");
+    let is_raman = (0..folders.len().min(4)).any(names_raman);
     let header = &mut grid.header;
     if is_raman
         && grid.unit.is_none()
@@ -96,7 +100,9 @@ fn of_name(name: &str) -> Option<(Role, bool)> {
         words.remove(at);
     }
     let short = name.to_lowercase().replace(['_', '-', '.', ' '], "");
-    let is_solar = ["am0", "am15", "astmg"].iter().any(|sun| short.starts_with(sun));
+    // AM012 is a number of a sample.
+    let ends = |rest: &str| !rest.starts_with(|c: char| c.is_ascii_digit());
+    let is_solar = ["am0", "am15", "astmg173"].iter().any(|sun| short.strip_prefix(sun).is_some_and(ends));
     let sun = is_solar.then_some(Role::Illuminant);
     let mut roles = sun.into_iter().chain(words.iter().filter_map(|word| role_of_word(word)));
     let first = roles.next()?;

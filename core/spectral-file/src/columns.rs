@@ -65,7 +65,7 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
     }
     if let Some(broken) = columns.broken.take() {
         // A row that begins like a row is a row gone wrong; anything else is text below the table.
-        if broken.begins_with_number {
+        if broken.first.is_some() {
             return Err(broken.error);
         }
         log.push(Warning::TextBelow(broken.line));
@@ -92,9 +92,13 @@ fn without_last_word(text: &str) -> &str {
     text.trim_end().rsplit_once([' ', '\t']).map_or("", |(before, _)| before)
 }
 
+/// Steps of wavelengths within which a number goes on with them.
+const NEAR_STEPS: f64 = 3.0;
+
 struct Broken {
     line: usize,
-    begins_with_number: bool,
+    /// The number that it begins with.
+    first: Option<f64>,
     has_numbers: bool,
     is_header: bool,
     /// Rows of numbers below it that do not fit this table.
@@ -167,7 +171,7 @@ impl Columns {
             Row::Numbers { cells, filled } => match self.broken.take() {
                 None => self.push(number, cells, filled),
                 // Numbers without a wavelength, below text: it goes on.
-                Some(broken) if !broken.begins_with_number && self.is_without_wavelength() => {
+                Some(broken) if broken.first.is_none() && self.is_without_wavelength() => {
                     self.broken = Some(broken);
                     Ok(())
                 }
@@ -194,9 +198,14 @@ impl Columns {
     /// Takes the line of names, which some programs print again on every page.
     fn take_header(&mut self, line: usize) {
         let error = ReadError::NotANumber { line, column: 1, text: String::new() };
-        let nothing = Broken { line, begins_with_number: false, has_numbers: false, is_header: true, others: 0, error };
-        // What stands between a table and the same names is the title of another, with numbers or not.
-        self.broken.get_or_insert(nothing).has_numbers = false;
+        let nothing = Broken { line, first: None, has_numbers: false, is_header: true, others: 0, error };
+        let broken = self.broken.get_or_insert(nothing);
+        // What stands between a table and the same names is the title of another, unless it goes on as a row of this one.
+        let goes_on = |next: f64| match self.cells.first().map(Vec::as_slice) {
+            Some([.., before, last]) => (next - last).abs() <= NEAR_STEPS * (last - before).abs(),
+            _ => true,
+        };
+        broken.has_numbers &= broken.first.is_some_and(goes_on);
     }
 
     /// Returns whether a comment is a row that was commented out, or one that begins with `#` for another reason.
@@ -255,9 +264,9 @@ impl Columns {
     fn broken(&self, line: usize, text: &str, column: usize, cell: &str) -> Broken {
         let error = ReadError::NotANumber { line, column: column + 1, text: excerpt(cell) };
         let mut cells = self.dialect.cells(text).take(MAX_CURVES + 2);
-        let begins_with_number = self.row.first().is_some_and(|value| !value.is_nan());
+        let first = self.row.first().copied().filter(|value| !value.is_nan());
         let has_numbers = cells.any(|cell| matches!(self.dialect.parse(cell), Cell::Number(_)));
-        Broken { line, begins_with_number, has_numbers, is_header: false, others: 0, error }
+        Broken { line, first, has_numbers, is_header: false, others: 0, error }
     }
 
     /// Returns whether the row just parsed goes back over wavelengths that were there before.

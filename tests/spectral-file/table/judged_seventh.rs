@@ -43,7 +43,7 @@ fn an_empty_row_of_zeros_before_a_table_is_left_out() {
 fn shifts_of_raman_scattering_are_no_wavelengths() {
     let text = rows("Wavenumber,Intensity\n", &[200.0, 500.0, 900.0, 1800.0]);
     let at = |path| read(Source { path, ..Source::from(&text) }, &ReadOptions::default());
-    assert!(at("ir/leaf.csv").is_ok());
+    assert!(at("ir/leaf.csv").is_ok() && at("/home/raman/ir/leaf.csv").is_ok() && at("ramanujan/leaf.csv").is_ok());
     assert!(matches!(at("RamanSpectroscopy/data/leaf.csv"), Err(ReadError::NotWavelengths(1))));
     let options = ReadOptions { wavelength_unit: Some(WavelengthUnit::Wavenumber), ..ReadOptions::default() };
     assert!(read(Source { path: "raman.csv", ..Source::from(&text) }, &options).is_ok(), "the user's word");
@@ -81,11 +81,15 @@ fn a_title_with_numbers_stands_above_another_table() {
     let table = |title: &str| format!("{title}\nWavelength (nm),%R\n500,1.5\n490,2.5\n480,3.5\n\n");
     let found = ok(&(table("Blank") + &table("1,1' ethyl") + &table("2,2' ethyl")));
     assert_eq!((found.reading.parts.len(), found.curves[0].values.len()), (3, 3));
+    let torn = "Wavelength (nm),%R\n500,1\n490,2\n480,x\nWavelength (nm),%R\n500,1\n490,2\n480,3\n";
+    assert!(matches!(error(torn), ReadError::NotANumber { line: 4, .. }));
 }
 
 #[test]
 fn comments_name_a_single_curve() {
     assert_eq!(names(&ok("# Name: Olivine Fo91\n# Origin: Hawaii\n0.5\t0.1\n0.6\t0.2\n0.7\t0.3\n")), ["Olivine Fo91"]);
+    assert_eq!(names(&ok("SH0385\nnm,R\n500,0.1\n600,0.2\n700,0.3\n")), ["SH0385"]);
+    assert_eq!(names(&ok("2024-05-01\nnm,R\n500,0.1\n600,0.2\n700,0.3\n")), ["R"]);
     let nameless = "Created as New Dataset,\nnm,A\n500,0.1\n600,0.2\n700,0.3\n";
     assert_eq!(names(&ok(nameless)), ["A"]);
     let card = "#XUNITS  = 'um      '           / wavelengths\n#YUNITS  = 'W/m2/um'\n";
@@ -139,5 +143,5 @@ fn the_sun_in_the_name_of_a_file_is_a_light() {
     let text = rows("", &[400.0, 410.0, 420.0]);
     let role = |path| read(Source { path, ..Source::from(&text) }, &ReadOptions::default()).unwrap().role;
     assert_eq!((role("solar-cell/AM1.5G.txt").value, role("AM0.csv").certainty), (Role::Illuminant, Certainty::Guess));
-    assert_eq!(role("cam01.txt").value, Role::Unknown);
+    assert_eq!((role("cam01.txt").value, role("AM012.csv").value), (Role::Unknown, Role::Unknown));
 }

@@ -126,8 +126,11 @@ impl Header {
         let mut above: Vec<String> = vec![String::new(); self.names.len()];
         // Shimadzu names its only curve so; a code in the first line is a name, too.
         let in_code = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_');
-        let is_code =
-            |title: &&str| first && title.chars().all(in_code) && title.contains(|c: char| c.is_ascii_digit());
+        let is_code = |title: &&str| {
+            first
+                && title.chars().all(in_code)
+                && [char::is_numeric, char::is_alphabetic].iter().all(|kind| title.contains(kind))
+        };
         if let [title] = cells.as_slice()
             && let Some(name) = title.strip_suffix(" - RawData").or(Some(title.as_str()).filter(is_code))
             && let [column] = values.as_slice()
