@@ -9,6 +9,7 @@ mod doubts;
 mod evidence;
 mod judged;
 mod judged_columns;
+mod judged_eighth;
 mod judged_fourth;
 mod judged_more;
 mod judged_seventh;

@@ -103,6 +103,7 @@ fn of_name(name: &str) -> Option<(Role, bool)> {
     // AM012 is a number of a sample.
     let ends = |rest: &str| !rest.starts_with(|c: char| c.is_ascii_digit());
     let is_solar = ["am0", "am15", "astmg173"].iter().any(|sun| short.strip_prefix(sun).is_some_and(ends));
+    let is_solar = is_solar || ["solarspectr", "sunspectr", "spectrumofthesun"].iter().any(|sun| short.contains(sun));
     let sun = is_solar.then_some(Role::Illuminant);
     let mut roles = sun.into_iter().chain(words.iter().filter_map(|word| role_of_word(word)));
     let first = roles.next()?;
@@ -141,7 +142,7 @@ fn role_of_word(word: &str) -> Option<Role> {
         (
             Role::Camera,
             "sensitiv|responsiv|quantum|efficien|camera",
-            "ssf|ssfs|qe|cmf|cmfs|cmos|response|responses|photopic|scotopic|melanopic|observer|observers",
+            "ssf|ssfs|camspec|qe|cmf|cmfs|cmos|response|responses|photopic|scotopic|melanopic|observer|observers",
         ),
     ];
     let starts = |starts: &str| starts.split('|').any(|start| word.starts_with(start));

@@ -423,7 +423,8 @@ fn raw_curve(header: &Header, column: usize, only: bool, values: Vec<f64>) -> Ra
     // What is measured names no sample, where there is only one.
     let named =
         header.name(column).map(unit_text::without_unit).filter(|name| !(only && header_terms::is_quantity(name)));
-    let given = named.filter(|name| !header_terms::is_sign(name)).or(title);
+    let is_unit = |name: &str| name.starts_with('[') && name.ends_with(']') && unit_text::unit(name).is_some();
+    let given = named.filter(|name| !(header_terms::is_sign(name) || is_unit(name))).or(title);
     let name = given.map_or_else(|| format!("Column {}", column + 1), str::to_owned);
     let (named, label, unit) = (given.is_some(), header.label(column), header.unit(column));
     RawCurve { name, named, column: Some(column + 1), origin: column, label, unit, values, ..RawCurve::default() }

@@ -174,19 +174,28 @@ pub(super) struct Across {
     pub(super) rows: usize,
     misses: usize,
     pub(super) cells: usize,
+    /// Empty cells that the header begins with.
+    blank: usize,
     /// Its groups of wavelengths, at least one.
     pub(super) groups: Vec<Group>,
     /// The part that is read, from 0: one of several groups, else of the quantities of the rows.
     pub(super) part: usize,
-    /// True if the names of the rows have no head, as R writes them.
-    pub(super) headless: bool,
+    /// Columns by which rows stand further right than their heads: 1 if their names have no head, as R writes them, -1 if the head
+    /// begins with an empty cell too many.
+    pub(super) shift: isize,
 }
 
 impl Across {
-    /// Moves the wavelengths behind names of rows that have no head.
-    pub(super) fn behind_names(mut self) -> Self {
-        self.groups.iter_mut().for_each(|group| group.start += 1);
-        Self { cells: self.cells + 1, headless: true, ..self }
+    /// Moves the wavelengths to the columns in which rows have their values.
+    pub(super) fn shifted(mut self, shift: isize) -> Self {
+        self.groups.iter_mut().for_each(|group| group.start = group.start.saturating_add_signed(shift));
+        Self { cells: self.cells.saturating_add_signed(shift), shift, ..self }
+    }
+
+    /// The cells of the header, each above its column.
+    pub(super) fn heads<'h>(&self, heads: impl Iterator<Item = &'h str>) -> Vec<&'h str> {
+        let (missing, extra) = (self.shift.max(0), (-self.shift).max(0));
+        std::iter::repeat_n("", missing.unsigned_abs()).chain(heads.skip(extra.unsigned_abs())).collect()
     }
 
     pub(super) fn group(&self) -> &Group {
@@ -285,6 +294,13 @@ impl Trial {
     fn take_across(&mut self, number: usize, shape: &Shape, line: &str) {
         if !self.across_tested && shape.cells >= bands::FEWEST {
             let mut groups = bands::groups(self.dialect, line);
+            // Wavelengths with points may stand above values with commas.
+            if groups.is_empty()
+                && self.dialect.mark == DecimalMark::Comma
+                && self.dialect.delimiter != Delimiter::Comma
+            {
+                groups = bands::groups(Dialect::new(self.dialect.delimiter, DecimalMark::Point), line);
+            }
             // Small numbers below names are values.
             let small = |group: &Group| {
                 group.unit.is_none()
@@ -295,12 +311,19 @@ impl Trial {
             self.heads = if shape.numbers == 0 { shape.filled } else { self.heads };
             self.across_tested = shape.numbers >= bands::FEWEST || !groups.is_empty();
             if !groups.is_empty() {
-                self.across = Some(Across { line: number, cells: shape.cells, groups, ..Across::default() });
+                let blank = shape.gaps.trailing_ones() as usize;
+                self.across = Some(Across { line: number, cells: shape.cells, blank, groups, ..Across::default() });
             }
         } else if let Some(across) = self.across.as_mut().filter(|across| across.misses <= MISSES) {
-            let first = across.rows == 0 && across.group().start == 0;
-            if first && shape.filled == across.cells + 1 && shape.texts == 1 {
-                *across = std::mem::take(across).behind_names();
+            let first = across.rows == 0 && across.misses == 0 && shape.texts == 1;
+            if first && across.group().start == 0 && shape.filled == across.cells + 1 {
+                *across = std::mem::take(across).shifted(1);
+            } else if first
+                && across.blank > 1
+                && across.group().start == across.blank
+                && shape.cells + 1 == across.cells
+            {
+                *across = std::mem::take(across).shifted(-1);
             }
             if across.is_row(self.dialect, shape, line) {
                 across.push(number);

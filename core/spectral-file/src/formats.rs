@@ -136,7 +136,11 @@ fn family(text: &str) -> Option<Family> {
     if jcamp::recognize(&start[..floor(start)]) {
         return Some(Family::Jcamp);
     }
-    let list = start.starts_with('[') && start.trim_end().ends_with(']');
+    // `[SpectrumHeader]` is the key of a section.
+    let section = |rest: &str| {
+        rest.lines().next().is_some_and(|key| key.trim_end().ends_with(']') && key.starts_with(char::is_alphabetic))
+    };
+    let list = start.strip_prefix('[').is_some_and(|rest| start.trim_end().ends_with(']') && !section(rest));
     if begins_object(start) || list || commented_json(start) {
         return Some(Family::Json);
     }

@@ -128,7 +128,8 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
         // Two are prose, unless each has a unit.
         let united = |names: &str| names.ends_with([')', ']']);
         let text = body.unwrap_or(line);
-        header.raman |= has_word(&lower(text), "raman");
+        // LabSpec's wave numbers are shifts.
+        header.raman |= has_word(&lower(text), "raman") || text.starts_with("AxisUnit[1]=");
         if let Some(name) = text.strip_prefix("Data from ").and_then(|rest| rest.trim_end().strip_suffix(" Node")) {
             header.note(number, "title", name.trim_end_matches(".txt"));
         }
@@ -152,6 +153,9 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
             continue;
         }
         header.take_prose(number, body.unwrap_or(line));
+        if let Some(name) = stated_name(line).filter(|_| header.comment("title").is_none()) {
+            header.note(number, "title", name);
+        }
         near.push((number, line));
         if near.len() > NEAR {
             near.remove(0);
@@ -172,6 +176,16 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
         heads::take(&mut header);
     }
     header
+}
+
+/// The name of the sample that a setting gives: `Sample name: leaf 3`, `TITLE<tab>leaf 3`.
+fn stated_name(line: &str) -> Option<&str> {
+    const KEYS: &str = "title|sample|sample name|sample id|name|data name|spectrum name|label|labels";
+    let (key, value) = line.split_once([':', ';', '=', '\t', ','])?;
+    let value = bare_title(value);
+    let is_name = value.contains(char::is_alphabetic) && !value.contains([',', ';', '\t', '=']);
+    let is_key = is_one(&lower(bare_title(key)), KEYS);
+    (is_key && is_name && value.len() <= 100 && !header_terms::is_quantity(value)).then_some(value)
 }
 
 /// Columns of the International Glazing Database: transmittance, and reflectances of the front and of the back.

@@ -129,7 +129,9 @@ pub(super) fn not_converted(text: &str) -> Option<&'static str> {
         () if has("correction curve") && !text.contains([':', '=', '\t']) => {
             Some("A correction is a factor of an instrument's values, and none of the spectra read here")
         }
-        () if begins(&text, "emissivit") => Some("An emissivity is neither a reflectance nor a transmittance"),
+        () if begins(&text, "emissivit|thermal emission") => {
+            Some("An emissivity is neither a reflectance nor a transmittance")
+        }
         () => None,
     }
 }
@@ -356,7 +358,7 @@ pub(super) fn lists_codes(name: &str) -> bool {
 
 /// Returns whether the name of bands says how specular reflection was treated: included (SCI) or excluded (SCE).
 pub(super) fn says_specular(text: &str) -> bool {
-    has_word(&lower(text), "sci|sce|spin|spex")
+    has_word(&lower(text), "sci|sce|spin|spex|rsin|rsex")
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -398,13 +400,15 @@ pub(super) fn x_unit(text: &str) -> Option<XUnit> {
         return Some(XUnit::Other);
     }
     let energies = has_part(&text, "energ|(ev)|[ev]") || words(&text).count() == 1;
+    let wave_numbers = text.contains("wavenumber") || text.contains("wave number") || text == "wn";
     let unit = words(&text).find_map(|word| match word {
         "ev" | "kev" | "mev" if energies => Some(XUnit::Other),
         "hz" => Some(XUnit::Wavelength(WavelengthUnit::Hertz)),
-        "ghz" | "phz" | "1/nm" | "1/m" | "m-1" => Some(XUnit::Other),
+        "ghz" | "phz" | "1/nm" => Some(XUnit::Other),
+        // Coefficients of absorption have it too.
+        "1/m" | "m-1" if wave_numbers => Some(XUnit::Other),
         _ => WavelengthUnit::from_symbol(word).map(XUnit::Wavelength),
     });
-    let wave_numbers = text.contains("wavenumber") || text.contains("wave number") || text == "wn";
     unit.or_else(|| wave_numbers.then_some(XUnit::Wavelength(WavelengthUnit::Wavenumber)))
 }
 
@@ -460,7 +464,7 @@ pub(super) fn medium(text: &str) -> Option<Medium> {
 /// The unit that a line of free text gives for wavelengths: the first unit after the word.
 pub(super) fn x_unit_in_prose(text: &str) -> Option<XUnit> {
     const WORDS: &str =
-        "wavelength|lambda is in|lambda\" is in|lambda in|wavenumber|wave number|x unit|xunit|x axis|xaxis";
+        "wavelength|lambda is in|lambda\" is in|lambda in|wavenumber|wave number|x unit|xunit|x axis|xaxis|axisunit[1]";
     let text = lower(text);
     let start = WORDS.split('|').find_map(|word| text.find(word))?;
     // In a line of names the wave numbers have a column of their own.

@@ -193,9 +193,9 @@ impl Sniffer<'_> {
             // The header too may hold marks that group thousands.
             let groups = bands::groups(dialect, header);
             if !groups.is_empty() {
-                let headless = across.headless;
+                let shift = across.shift;
                 across.groups = groups;
-                across = if headless { across.behind_names() } else { across };
+                across = across.shifted(shift);
             }
         }
         let certain = || Decided::certain(trial.dialect.delimiter, evidence);

@@ -9,7 +9,7 @@ use crate::dialect_trial::{Across, Layout};
 use crate::error::{MAX_PARTS, ReadError, check_curves, check_samples};
 use crate::grid::{Grid, RawCurve};
 use crate::header::{self, Header};
-use crate::text::{Lines, Section, comment, excerpt, has_word, listed};
+use crate::text::{Lines, Section, comment, excerpt, has_word, is_one, listed};
 use crate::warning::{LineList, Warning};
 use crate::watch::Log;
 use crate::{header_terms, no_curve, uncertainty_terms, unit_text};
@@ -21,8 +21,7 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
     let Some((_, header_line)) = lines.next() else { return Err(ReadError::NoNumbers) };
     let dialect = layout.dialect();
     let group = across.group();
-    let bare = across.headless.then_some("");
-    let heads: Vec<&str> = bare.into_iter().chain(dialect.cells(header_line)).collect();
+    let heads = across.heads(dialect.cells(header_line));
     let leading = &heads[..group.start.min(heads.len())];
     let mut header = header::read(section, layout);
     let named_unit =
@@ -37,7 +36,8 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
         log.at(read)?;
         // Names of samples may begin with `#` too.
         let is_row = || comment(line).is_none() || rows.parse(number, line).is_ok_and(|row| row.is_some());
-        if !line.trim_ascii().is_empty() && line != header_line && is_row() {
+        let is_types = || rows.curves.is_empty() && dialect.cells(line).all(names_type);
+        if !line.trim_ascii().is_empty() && line != header_line && is_row() && !is_types() {
             rows.take(number, line)?;
         }
     }
@@ -124,6 +124,11 @@ fn description(heads: &[&str], at: usize) -> String {
     } else {
         format!("column {} (“{}”)", at + 1, excerpt(heads[at]))
     }
+}
+
+/// Returns whether a cell below a head states the type or the use of its column, as Orange writes them: `continuous`, `meta`.
+fn names_type(cell: &str) -> bool {
+    is_one(cell, "|c|d|s|t|i|continuous|discrete|string|text|time|class|meta|ignore")
 }
 
 /// The leading column that best names a row: one headed so, else the first.
@@ -254,7 +259,9 @@ impl<'a> Rows<'a> {
                 if let Some(cell) = leading().find(is_other).filter(|_| curve.named) {
                     curve.name = format!("{} {cell}", curve.name);
                 }
-                let role = leading().find_map(header_terms::role).map(|role| (number, role));
+                let specular = |cell: &str| header_terms::says_specular(cell).then_some(Role::Reflectance);
+                let role = leading().find_map(|cell| header_terms::role(cell).or_else(|| specular(cell)));
+                let role = role.map(|role| (number, role));
                 let label = match self.kind_column {
                     Some(column) => leading().nth(column).map(|cell| Label::of(cell, number)),
                     None => leading().map(|cell| Label::of(cell, number)).find(Label::is_said),

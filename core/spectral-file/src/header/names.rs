@@ -315,7 +315,10 @@ fn is_key_and_value(layout: &Layout, cells: &[String]) -> bool {
     }
     let key = cells[0].to_ascii_lowercase();
     let numeric = matches!(layout.dialect().parse(&cells[1]), Cell::Number(_));
-    ["xaxis", "yaxis", "x unit", "y unit"].iter().any(|start| key.starts_with(start))
+    let wavelength = layout.dialect().parse_label(&cells[1]).is_some();
+    key.ends_with('=')
+        || (wavelength && !header_terms::begins_with_wavelengths(&cells[0]))
+        || ["xaxis", "yaxis", "x unit", "y unit"].iter().any(|start| key.starts_with(start))
         || (numeric && !header_terms::names_wavelengths(&cells[0]))
 }
 

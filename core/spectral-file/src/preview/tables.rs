@@ -160,8 +160,8 @@ pub(super) struct Across {
     dialect: Dialect,
     line: usize,
     start: usize,
-    /// Columns of rows that the header has not.
-    headless: usize,
+    /// Columns by which rows stand further right than their heads.
+    shift: isize,
     /// The wavelengths in the order of the columns; `None` where none can be read, or again.
     wavelengths: Vec<Option<f64>>,
     names: usize,
@@ -174,17 +174,16 @@ pub(super) struct Across {
 impl Across {
     pub(super) fn new(layout: &Layout, across: &dialect_trial::Across, header: &str, unit: WavelengthUnit) -> Self {
         let (group, dialect) = (across.group(), layout.dialect());
-        let headless = usize::from(across.headless);
-        let heads: Vec<&str> = dialect.cells(header).take(group.start - headless).collect();
+        let heads = across.heads(dialect.cells(header));
         let mut seen = BTreeSet::new();
         let written = group.wavelengths.iter().map(|wavelength| unit.nanometers(*wavelength));
         Self {
             dialect,
             line: across.line,
             start: group.start,
-            headless,
+            shift: across.shift,
             wavelengths: written.map(|nm| Some(nm).filter(|nm| !nm.is_nan() && seen.insert(nm.to_bits()))).collect(),
-            names: wide::name_column(&heads),
+            names: wide::name_column(&heads[..group.start.min(heads.len())]),
             rows: Vec::new(),
             uncertain: Vec::new(),
         }
@@ -206,7 +205,7 @@ impl Across {
 
     fn header(&self, line: &str, window: &Range<usize>) -> Vec<Mark> {
         let marks = within(self.dialect, line, window).filter_map(|(column, range, cell)| {
-            let what = match (column + self.headless).checked_sub(self.start) {
+            let what = match column.checked_add_signed(self.shift).and_then(|column| column.checked_sub(self.start)) {
                 None => What::Unit(header_terms::x_unit(cell).map(|_| None)?),
                 Some(index) => match self.wavelengths.get(index)? {
                     Some(nm) => What::Wavelength(*nm),
