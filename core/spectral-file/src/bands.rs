@@ -176,7 +176,9 @@ pub(super) fn groups(dialect: Dialect, line: &str) -> Vec<Group> {
     }
     all.extend(group(&run, wrong, stated));
     // A table that names the column of its wavelengths has them there.
-    if named && all.first().is_some_and(|group| !(group.prefix.is_empty() && group.suffix.is_empty())) {
+    // R puts an X before numbers.
+    let bare = |group: &Group| group.suffix.is_empty() && matches!(group.prefix.as_str(), "" | "X");
+    if named && all.first().is_some_and(|group| !bare(group)) {
         return Vec::new();
     }
     all
@@ -252,6 +254,10 @@ fn group(run: &[(usize, Band<'_>)], wrong: usize, stated: Option<WavelengthUnit>
     let letter = is_one(first.prefix.trim_end_matches(['_', '.', ' ']).to_lowercase().as_str(), "a|b|l|band");
     let known = first.is_known() || first.prefix.is_empty() && !bare;
     if counted && first.unit.is_none() && (letter || !known) {
+        return None;
+    }
+    let from_start = first.wavelength <= 1.0 && values().zip(values().skip(1)).all(|(a, b)| b - a == 1.0);
+    if from_start && first.unit.is_none() {
         return None;
     }
     let mut wavelengths = vec![f64::NAN; end + 1 - start];

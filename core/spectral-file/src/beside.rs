@@ -32,9 +32,12 @@ impl<'a, T: AsRef<[u8]> + ?Sized> From<&'a T> for Source<'a> {
 pub(super) fn take(source: Source<'_>, grid: &mut Grid) {
     #[cfg(feature = "json")]
     metadata::take(source.metadata, grid);
-    let names_other = grid.header.clues.material || grid.curves.iter().all(|curve| is_one(&curve.name, "n|k"));
+    let constants = grid.curves.iter().all(|curve| is_one(&curve.name, "n|k"));
+    let names_other = grid.header.clues.material || constants;
     let fluorescence = grid.header.clues.fluorescence;
-    let fits = |beside: &Decided<Role>| !fluorescence || beside.value == Role::Illuminant;
+    let fits = |beside: &Decided<Role>| {
+        (!constants || beside.value == Role::Unknown) && (!fluorescence || beside.value == Role::Illuminant)
+    };
     grid.beside = grid.beside.take().or_else(|| of_path(source.path, names_other).filter(fits));
     let stem = file_stem(source.path).map(words).unwrap_or_default();
     let clues = &mut grid.header.clues;
@@ -142,7 +145,7 @@ fn role_of_word(word: &str) -> Option<Role> {
         (
             Role::Camera,
             "sensitiv|responsiv|quantum|efficien|camera",
-            "ssf|ssfs|camspec|qe|cmf|cmfs|cmos|response|responses|photopic|scotopic|melanopic|observer|observers",
+            "ssf|ssfs|camspec|qe|eqe|iqe|cmf|cmfs|cmos|response|responses|photopic|scotopic|melanopic|observer|observers",
         ),
     ];
     let starts = |starts: &str| starts.split('|').any(|start| word.starts_with(start));

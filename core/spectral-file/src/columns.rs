@@ -111,6 +111,8 @@ struct Columns {
     dialect: Dialect,
     texts: Texts,
     notes: Notes,
+    /// The most cells of a row, filled or not.
+    most_cells: usize,
     /// Rows must have this many cells; a row with more must not have been preceded by one with fewer.
     width: usize,
     fewest_cells: usize,
@@ -304,6 +306,7 @@ impl Columns {
             self.cells.push(vec![f64::NAN; rows]);
         }
         self.fewest_cells = self.fewest_cells.min(cells);
+        self.most_cells = self.most_cells.max(cells);
         for (column, value) in self.cells.iter_mut().zip(&self.row) {
             column.push(*value);
         }
@@ -345,7 +348,7 @@ impl Columns {
         self.lines.reserve_exact(rows);
     }
 
-    fn finish(mut self, header: Header, layout: &Layout, log: &mut Log<'_>) -> Result<Read, ReadError> {
+    fn finish(mut self, mut header: Header, layout: &Layout, log: &mut Log<'_>) -> Result<Read, ReadError> {
         let columns = self.cells.len();
         if let Some(column) = layout.wavelength_column
             && column.checked_sub(1).and_then(|at| self.cells.get(at)).is_none_or(|column| is_empty(column))
@@ -368,6 +371,11 @@ impl Columns {
             log.push(Warning::TextColumns { count: 1, column: column + 1, name });
         } else {
             warn_of_names_without_columns(&header, columns, log);
+            // Several names too many for all rows: nothing says which column has which.
+            if header.names.len() > self.most_cells.max(self.width) + 1 {
+                header.names.truncate(at + 1);
+                header.units.truncate(at + 1);
+            }
         }
         let (next, rows, label_unit) = (self.next, self.lines.len(), self.label_unit);
         let values = self.cells.split_off(at + 1);

@@ -315,10 +315,12 @@ impl Trial {
                 self.across = Some(Across { line: number, cells: shape.cells, blank, groups, ..Across::default() });
             }
         } else if let Some(across) = self.across.as_mut().filter(|across| across.misses <= MISSES) {
-            let first = across.rows == 0 && across.misses == 0 && shape.texts == 1;
-            if first && across.group().start == 0 && shape.filled == across.cells + 1 {
+            let first = across.rows == 0 && across.misses == 0 && shape.texts & !1 == 0;
+            let named = shape.texts == 1 || line.trim_start().starts_with('"');
+            if first && named && shape.filled == across.cells + 1 {
                 *across = std::mem::take(across).shifted(1);
             } else if first
+                && shape.texts == 1
                 && across.blank > 1
                 && across.group().start == across.blank
                 && shape.cells + 1 == across.cells

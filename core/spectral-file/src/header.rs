@@ -113,6 +113,9 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
             header.take_comment(number, key, value);
             continue;
         }
+        if let Some(unit) = comment(line).and_then(first_unit).filter(|_| header.x_unit.is_none()) {
+            header.x_unit = Some((number, XUnit::Wavelength(unit)));
+        }
         if let Some((key, value)) = braced(line) {
             if key == "Units, Wavelength Units" && layout.width == GLAZING.len() {
                 named_above = Some((number, GLAZING.map(str::to_owned).to_vec()));
@@ -141,8 +144,8 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
             let names = names::split_otherwise(layout, text).filter(|names| layout.width > 2 || united(&names[0]));
             named_above = names.map(|names| (number, names));
         }
-        if let Some((_, name)) = body.and_then(described_column).filter(|(at, _)| *at == described.len() + 1) {
-            described.push(name.to_owned());
+        if let Some((_, name)) = described_column(text).filter(|(at, _)| *at == described.len() + 1) {
+            described.push(name.replace('\t', " "));
             if described.len() == layout.width {
                 named_above = named_above.or_else(|| Some((number, described.clone())));
             }
@@ -211,11 +214,17 @@ fn card(body: &str) -> Option<(&str, &str)> {
     Some((key, value.trim())).filter(|(_, value)| is_key && !value.is_empty())
 }
 
+/// The unit of wavelengths in the first brackets of a line of units: `[Angstrom] [erg/cm^2/s/A]`.
+fn first_unit(body: &str) -> Option<WavelengthUnit> {
+    let (unit, rest) = body.trim_start().strip_prefix('[')?.split_once(']')?;
+    WavelengthUnit::from_symbol(unit.trim()).filter(|_| rest.trim_start().starts_with('['))
+}
+
 /// Number and name of a column in a comment: `Column 1: wavelength nm`, `Column 2 = flux`.
 fn described_column(body: &str) -> Option<(usize, &str)> {
     let (key, name) = body.split_once([':', '='])?;
     let (word, number) = key.trim().split_once(' ')?;
-    let number = number.trim().parse().ok().filter(|_| is_one(&lower(word), "column|col|col."))?;
+    let number = number.trim().parse().ok().filter(|_| is_one(&lower(word), "column|col|col.|label"))?;
     Some((number, name.trim())).filter(|(_, name)| !name.is_empty())
 }
 
@@ -411,6 +420,8 @@ fn whole<'a>(
 pub(super) fn split(dialect: Dialect, line: &str) -> Vec<String> {
     let plain = |cell: &str| {
         let cell = unguarded(cell).replace("\"\"", "\"");
+        let whole = cell.strip_prefix('"').and_then(|cell| cell.strip_suffix('"')).filter(|cell| !cell.contains('"'));
+        let cell = whole.map_or(cell.clone(), str::to_owned);
         if cell.contains(['\n', '\r']) { unit_text::tidy(&cell) } else { cell }
     };
     let mut cells: Vec<String> = dialect.cells(line).take(MAX_CURVES + 1).map(plain).collect();

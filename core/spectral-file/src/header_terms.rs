@@ -409,7 +409,10 @@ pub(super) fn x_unit(text: &str) -> Option<XUnit> {
         "1/m" | "m-1" if wave_numbers => Some(XUnit::Other),
         _ => WavelengthUnit::from_symbol(word).map(XUnit::Wavelength),
     });
-    unit.or_else(|| wave_numbers.then_some(XUnit::Wavelength(WavelengthUnit::Wavenumber)))
+    // A wave number in nanometers contradicts itself.
+    let own =
+        wave_numbers && unit == Some(XUnit::Wavelength(WavelengthUnit::Nanometer)) && !text.contains("wavelength");
+    unit.filter(|_| !own).or_else(|| (wave_numbers && !own).then_some(XUnit::Wavelength(WavelengthUnit::Wavenumber)))
 }
 
 /// Words for wavelengths and what stands for them.

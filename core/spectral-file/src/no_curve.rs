@@ -16,7 +16,7 @@ pub(super) const FEWEST_ROWS: usize = 3;
 /// Names of what is recorded beside spectra, without their units.
 const NAMES: &str = "temperature|temp|temp.|t_amb|ambient temperature|detector temperature|ccd temperature|temperatur|\
     température|temperatura|time|elapsed time|elapsed|timestamp|time stamp|date|day|hour|zeit|temps|tiempo|integration time|\
-    exposure|exposure time|humidity|relative humidity|rel. humidity|imgs|bandwidth|fwhm|pressure|air pressure|voltage|battery|battery voltage|\
+    exposure|exposure time|humidity|relative humidity|rel. humidity|imgs|bandwidth|bandpass|fwhm|pressure|air pressure|voltage|battery|battery voltage|\
     altitude|latitude|longitude|calibration|theta|phase|theta device|gain";
 
 /// What detectors give, recorded beside what was made of it: last words of names.
@@ -116,11 +116,12 @@ pub(super) fn tells_rows_apart(column: &[f64]) -> bool {
 /// True for a column that holds the wavelengths of another in a unit that is inverse to theirs, or the upper edges of their
 /// intervals.
 pub(super) fn is_other_scale(wavelengths: &[f64], column: &[f64]) -> bool {
-    /// Wave numbers in 1/cm, energies in eV and frequencies in THz, times nanometers.
-    const PRODUCTS: [f64; 3] = [1e7, 1_239.841_984, 299_792.458];
+    /// Wave numbers in 1/cm, energies in eV and frequencies in THz and Hz, times nanometers.
+    const PRODUCTS: [f64; 4] = [1e7, 1_239.841_984, 299_792.458, 299_792.458e12];
     /// Of micrometers and of ångströms too.
     const UNITS: [f64; 3] = [1.0, 1e-3, 10.0];
-    const CLOSE: f64 = 1e-3;
+    /// Of three digits, `1.01E+03`.
+    const CLOSE: f64 = 6e-3;
     if wavelengths.len() < FEWEST_ROWS {
         return false;
     }

@@ -287,16 +287,18 @@ fn said(grid: &Grid, role: &Decided<Role>) -> Option<Decided<Quantity>> {
     };
     let labels = grid.curves.iter().map(|curve| &curve.label);
     let mut labeled = labels.filter_map(|label| Some((header_terms::quantity(label).filter(own)?, label)));
-    let labeled = labeled.next();
-    if let Some((quantity, label)) = labeled.filter(|(quantity, _)| fits(*quantity)) {
-        return Some(Decided::certain(quantity, format!("A column is headed “{}”", excerpt(label))));
+    let decide = |all: bool| if all { Decided::certain } else { Decided::guess };
+    if let Some((quantity, label)) = labeled.next().filter(|(quantity, _)| fits(*quantity)) {
+        let all = labeled.count() + 1 == grid.curves.len();
+        return Some(decide(all)(quantity, format!("A column is headed “{}”", excerpt(label))));
     }
     if let Some((line, quantity)) = grid.header.quantity.filter(|(_, quantity)| fits(*quantity)) {
         return Some(Decided::certain(quantity, format!("Line {line} says so")));
     }
     let unit = grid.curves.iter().find_map(|curve| curve.unit.as_deref());
     let (unit, quantity) = unit.and_then(|unit| Some((unit, of_unit(unit).filter(|unit| fits(*unit))?)))?;
-    Some(Decided::certain(quantity, format!("The unit is {unit}")))
+    let all = grid.curves.iter().all(|curve| curve.unit.is_some());
+    Some(decide(all)(quantity, format!("The unit is {unit}")))
 }
 
 /// Returns whether sensitivities are responses per photon. Quantum efficiencies are, by their definition.

@@ -314,10 +314,12 @@ impl Sniffer<'_> {
             let shape = Shape::of(trial.dialect, line);
             let steps_away = shape.first.map_or(f64::NAN, |first| (run.first - first) / step);
             let near = steps_away > 0.0 && steps_away <= 4.0 * (run.line - number) as f64;
-            if near && shape.leads {
+            if near && shape.leads && (shape.cells > 1 || number + 1 == run.line) {
                 return number;
             }
-            if is_spoiled(trial, &shape, line) {
+            // A row whose last cells are remarks.
+            let remarked = number + 1 == run.line && shape.text && shape.cells == run.cells;
+            if is_spoiled(trial, &shape, line) || remarked && shape.leads && 2 * shape.numbers > shape.cells {
                 return fragment.map_or(number, |(line, _)| line);
             }
             if !shape.is_row(trial.mixed) {

@@ -27,6 +27,7 @@ const UNIT: &str = "its unit is not that of its curve";
 const SECOND: &str = "its curve has another";
 const NEGATIVE: &str = "it has numbers below zero";
 const ZERO: &str = "it is zero everywhere";
+const SIDE: &str = "it is of one side only";
 const FEW: &str = "most of its cells are empty";
 
 /// Takes the columns that are uncertainties of other curves from the curves, and gives them to these.
@@ -142,6 +143,10 @@ fn settle_uses(grid: &Grid, terms: &mut [Option<Term>]) -> Vec<Use> {
     let all = !covered.contains(&false);
     for index in 0..curves.len() {
         let Some(term) = &terms[index] else { continue };
+        if ["(+)", "(-)", "(−)"].iter().any(|sign| curves[index].label.ends_with(sign)) {
+            uses[index] = Use::LeftOut(SIDE);
+            continue;
+        }
         let owner = if let Use::Of(curve) = uses[index] { curve } else { index };
         uses[index] = match (uses[index], fault(&curves[index].values, &curves[owner].values)) {
             // Short words are names too, such as SE of a direction: they need a table in which every curve has one.

@@ -141,8 +141,9 @@ pub(super) fn term(name: &str, label: &str) -> Option<Term> {
 /// The words of a name in lower case, those joined by capitals or figures apart, without what is said of a coverage factor.
 pub(super) fn key(name: &str) -> String {
     // A unit that stands right behind, whatever it is: `mua_std[cm-1]`.
-    let bare = name.strip_suffix(']').and_then(|name| name.rsplit_once('[')).map(|(bare, _)| bare);
-    let name = bare.filter(|bare| bare.ends_with(char::is_alphanumeric)).unwrap_or(name);
+    let ended = name.strip_suffix(']').and_then(|name| name.rsplit_once('['));
+    let bare = ended.filter(|(bare, unit)| bare.ends_with(char::is_alphanumeric) || unit.contains(['/', '^', '²']));
+    let name = bare.map_or(name, |(bare, _)| bare);
     let mut text = String::with_capacity(name.len() + 8);
     let mut digits = false;
     for c in without_level(&spaced(name).replace("+/-", "±")).chars() {

@@ -108,8 +108,16 @@ fn unit(text: &str, words: &[Word<'_>]) -> Option<Unit> {
     let (first, rest) = words.split_first()?;
     let lower = first.letters.to_lowercase();
     let ergs = ergs(first.letters);
+    // Below another amount, `A/W` or `A W^-1`, or behind what no unit begins with, `milli-Jy`, it is none of light.
+    let (before, after) = text.split_at(first.start);
+    let after = after[first.letters.len()..].trim_start_matches(['^', '*', '(']);
+    let inverse = after.strip_prefix(['-', '\u{2212}', '⁻']).is_some_and(|power| power.starts_with(['1', '¹']));
+    if inverse || before.ends_with(['/', '-']) {
+        return None;
+    }
     let (amount, joined) = if let Some((symbol, _)) = ergs { (Amount::Energy(symbol), None) } else { amount(&lower)? };
     let (ten, start) = power_of_ten(text, first.start);
+    let ten = ten * power_behind(text);
     let size = ergs.map_or(1.0, |(_, size)| size);
     let mut unit = Unit { amount, area: None, angle: None, time: None, per: Per::None, ten, size, start };
     let mut bare = unit.clone();
@@ -250,6 +258,17 @@ fn power_of_ten(text: &str, start: usize) -> (f64, usize) {
     let power = power.or_else(|| written.strip_prefix("1e").or_else(|| written.strip_prefix("1E")));
     let power = power.and_then(|power| power.parse::<i32>().ok()).filter(|power| power.abs() <= 40);
     power.map_or((1.0, start), |power| (10_f64.powi(power), at))
+}
+
+/// The power of ten that a unit ends with: `erg/s/cm2/A*10**-16`, `W/m2 x 10^-3`.
+fn power_behind(text: &str) -> f64 {
+    let text = text.trim_end_matches([')', ']']);
+    let power = |start: &str| {
+        let (before, power) = text.rsplit_once(start)?;
+        let times = before.trim_end().ends_with(['*', '·', '×', 'x']);
+        power.trim_matches(['(', ')']).parse::<i32>().ok().filter(|power| times && power.abs() <= 40)
+    };
+    power("10**").or_else(|| power("10^")).map_or(1.0, |power| 10_f64.powi(power))
 }
 
 fn plain(c: char) -> char {

@@ -1,5 +1,7 @@
 //! Names of the columns, and the units below them, in the lines above the numbers.
 
+use std::collections::BTreeSet;
+
 use super::{Header, split};
 use crate::decision::{Delimiter, Values, WavelengthUnit};
 use crate::dialect::{Cell, Dialect};
@@ -121,6 +123,7 @@ impl Header {
         let says_nothing = |name: &str| says_only_measure(name) || digitized(name);
         let measure = |column: &usize| alike || is_statistic(&column) || says_nothing(&self.names[*column]);
         if axes.is_empty() || values.is_empty() || !values.iter().all(measure) {
+            self.take_groups(&cells, &values, layout);
             return;
         }
         let mut above: Vec<String> = vec![String::new(); self.names.len()];
@@ -173,6 +176,24 @@ impl Header {
             let uncertain = uncertainty_terms::term(unit_text::without_unit(&own), &own).is_some();
             self.names[column] = if uncertain { format!("{name} {own}") } else { name.to_owned() };
             self.units[column] = if uncertain || own.eq_ignore_ascii_case("y") { String::new() } else { own };
+        }
+    }
+
+    /// Completes names that repeat by those of groups above them, each above the first of its columns: `Subject 1,,,Subject 2`.
+    fn take_groups(&mut self, above: &[String], values: &[usize], layout: &Layout) {
+        let filled: Vec<usize> = (0..above.len()).filter(|&column| !above[column].is_empty()).collect();
+        let are_names = filled.iter().all(|&column| layout.dialect().parse(&above[column]) == Cell::Text);
+        let over_values = filled.first() == values.first() && filled.iter().all(|column| values.contains(column));
+        let own: BTreeSet<&str> = values.iter().map(|&column| self.names[column].as_str()).collect();
+        let are_names = are_names && own.iter().all(|name| layout.dialect().parse(name) == Cell::Text);
+        if filled.len() < 2 || !are_names || !over_values || own.len() == values.len() {
+            return;
+        }
+        let group = |column: usize| filled.iter().rev().find(|start| **start <= column).map(|start| &above[*start]);
+        let full = |column: &usize| Some(format!("{} {}", group(*column)?, self.names[*column]));
+        let names: Vec<String> = values.iter().filter_map(full).collect();
+        if names.len() == values.len() && names.iter().collect::<BTreeSet<_>>().len() == names.len() {
+            values.iter().zip(names).for_each(|(&column, name)| self.names[column] = name);
         }
     }
 

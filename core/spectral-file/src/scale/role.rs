@@ -175,7 +175,9 @@ fn named(grid: &Grid) -> Option<Decided<Role>> {
     if count == 1 && grid.curves.len() > MOST_OTHERS {
         return Some(Decided::open(Role::Unknown, format!("{why}, alone of {}", grid.curves.len())));
     }
-    Some(if agree { Decided::certain(role, why) } else { Decided::guess(role, why) })
+    // Of those that say nothing it is a guess.
+    let why = if all || count == grid.curves.len() { why } else { format!("{why}, {count} of {}", grid.curves.len()) };
+    Some(if agree && count == grid.curves.len() { Decided::certain(role, why) } else { Decided::guess(role, why) })
 }
 
 /// The role that settings and comments with a key of their own name.
@@ -205,7 +207,9 @@ fn of_quantity(grid: &Grid) -> Option<Decided<Role>> {
     if let Some((unit, role)) = unit.and_then(|unit| Some((unit, quantity::of_unit(unit)?.role()?)))
         && role != Role::Unknown
     {
-        return Some(Decided::certain(role, format!("The unit is {unit}")));
+        let all = grid.curves.iter().all(|curve| curve.unit.is_some());
+        let decide = if all { Decided::certain } else { Decided::guess };
+        return Some(decide(role, format!("The unit is {unit}")));
     }
     let says_counts = |curve: &RawCurve| {
         header_terms::says_counts(&curve.label)
@@ -272,6 +276,9 @@ fn hinted(grid: &Grid, chosen: Option<Values>) -> Option<Decided<Role>> {
         }
         // Most spectrometers derive absorbances from what passes a sample.
         Some(Values::Absorbance) => Some(Decided::guess(Role::Transmittance, why)),
+        Some(Values::Decibels) if label(|label| has_word(&label.to_lowercase(), "db")).is_some() => {
+            Some(Decided::open(Role::Unknown, "Decibels may be of light or of a ratio, such as a transmittance"))
+        }
         Some(Values::Decibels) => Some(Decided::guess(Role::Illuminant, why)),
         Some(Values::Percent | Values::Plain) | None => lamp(grid),
     }
