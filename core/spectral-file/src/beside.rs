@@ -107,8 +107,10 @@ fn of_name(name: &str) -> Option<(Role, bool)> {
     let ends = |rest: &str| !rest.starts_with(|c: char| c.is_ascii_digit());
     let is_solar = ["am0", "am15", "astmg173"].iter().any(|sun| short.strip_prefix(sun).is_some_and(ends));
     let is_solar = is_solar || ["solarspectr", "sunspectr", "spectrumofthesun"].iter().any(|sun| short.contains(sun));
-    let sun = is_solar.then_some(Role::Illuminant);
-    let mut roles = sun.into_iter().chain(words.iter().filter_map(|word| role_of_word(word)));
+    let told = is_solar.then_some(Role::Illuminant);
+    let is_observer = ["ciexyz", "xyz2e", "xyz10e", "linss"].iter().any(|observer| short.contains(observer));
+    let told = told.or(is_observer.then_some(Role::Camera));
+    let mut roles = told.into_iter().chain(words.iter().filter_map(|word| role_of_word(word)));
     let first = roles.next()?;
     Some((first, roles.all(|role| role == first)))
 }

@@ -372,7 +372,8 @@ impl Columns {
         } else {
             warn_of_names_without_columns(&header, columns, log);
             // Several names too many for all rows: nothing says which column has which.
-            if header.names.len() > self.most_cells.max(self.width) + 1 {
+            let surplus = header.names.iter().skip(self.most_cells.max(self.width));
+            if surplus.filter(|name| !is_one(&name.to_lowercase(), NOTES)).count() > 1 {
                 header.names.truncate(at + 1);
                 header.units.truncate(at + 1);
             }

@@ -16,7 +16,7 @@ use crate::{heads, uncertainty_terms, unit_text, units};
 const MAX_COMMENTS: usize = 1000;
 
 /// Most lines with text between the names or units and the numbers.
-const NEAR: usize = 6;
+const NEAR: usize = 8;
 
 #[derive(Debug, Default)]
 pub(super) struct Header {

@@ -16,7 +16,7 @@ pub(super) const FEWEST_ROWS: usize = 3;
 /// Names of what is recorded beside spectra, without their units.
 const NAMES: &str = "temperature|temp|temp.|t_amb|ambient temperature|detector temperature|ccd temperature|temperatur|\
     température|temperatura|time|elapsed time|elapsed|timestamp|time stamp|date|day|hour|zeit|temps|tiempo|integration time|\
-    exposure|exposure time|humidity|relative humidity|rel. humidity|imgs|bandwidth|bandpass|fwhm|pressure|air pressure|voltage|battery|battery voltage|\
+    exposure|exposure time|humidity|relative humidity|rel. humidity|imgs|noise|snr|s/n|bandwidth|bandpass|fwhm|pressure|air pressure|voltage|battery|battery voltage|\
     altitude|latitude|longitude|calibration|theta|phase|theta device|gain";
 
 /// What detectors give, recorded beside what was made of it: last words of names.

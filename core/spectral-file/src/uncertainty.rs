@@ -152,7 +152,7 @@ fn settle_uses(grid: &Grid, terms: &mut [Option<Term>]) -> Vec<Use> {
             // Short words are names too, such as SE of a direction: they need a table in which every curve has one.
             (Use::Of(curve), why) if !term.clear && !names(term, &keys[curve]) => {
                 let mean = uncertainty_terms::names_mean(&keys[curve]);
-                if (all || mean) && fits(curve, index) && why.is_none_or(|why| why != NEGATIVE) {
+                if (all || mean || term.usual) && fits(curve, index) && (term.usual || why != Some(NEGATIVE)) {
                     why.map_or(Use::Of(curve), Use::LeftOut)
                 } else {
                     Use::Curve

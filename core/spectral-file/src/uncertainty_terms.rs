@@ -24,6 +24,8 @@ pub(super) struct Term {
     pub(super) kind: Kind,
     /// True if the words mean nothing else; `SE` may be a direction or a sample.
     pub(super) clear: bool,
+    /// True if behind a curve they mean nothing else: no samples are called so.
+    pub(super) usual: bool,
     /// The words about the curve it belongs to, as [`key`] has them; empty if there are none.
     pub(super) of: String,
     /// Coverage factor, if it is named.
@@ -37,7 +39,7 @@ pub(super) struct Term {
 /// What a head of the program's own says: that numbers are U = k u.
 pub(super) fn expanded(coverage: f64) -> Term {
     let (kind, coverage) = (Kind::Expanded, Some(coverage));
-    Term { kind, clear: true, of: String::new(), coverage, level: None, relative: false, percent: false }
+    Term { kind, clear: true, usual: true, of: String::new(), coverage, level: None, relative: false, percent: false }
 }
 
 /// Words for uncertainties with their kind, and whether they mean nothing else.
@@ -135,7 +137,9 @@ pub(super) fn term(name: &str, label: &str) -> Option<Term> {
     let of = without_mean(&[before, after].concat().join(" "));
     let percent = header_terms::says_percent(&without_level(&text));
     let clear = clear || percent && kind == Kind::Unsaid;
-    Some(Term { kind, clear, of, coverage: coverage(&text), level, relative, percent })
+    // Sigma makes cameras.
+    let usual = of.is_empty() && (is_one(word, "err|error|errors|error bar|unc|std|σ|±") || name.starts_with("sigma"));
+    Some(Term { kind, clear, usual, of, coverage: coverage(&text), level, relative, percent })
 }
 
 /// The words of a name in lower case, those joined by capitals or figures apart, without what is said of a coverage factor.

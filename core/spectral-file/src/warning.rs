@@ -189,6 +189,9 @@ pub enum Warning {
     NotSpectra { count: usize, first: String },
     #[error("By their values {first}{} are read as percent, others such as {other} as written", and_more(*.percent))]
     ScalesDiffer { percent: usize, first: String, other: String },
+    /// Curves that look like fractions beside others in percent.
+    #[error("{first}{} may be fractions, but are read as percent as the others are", and_more(*.count))]
+    SmallAmongPercent { count: usize, first: String },
     /// The file states percent, but its values would be fractions. Holds the largest value as written, in words.
     #[error("The file says percent, but no value exceeds {0}: if they are fractions, choose plain numbers")]
     SmallPercent(String),

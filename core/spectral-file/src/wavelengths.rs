@@ -50,8 +50,9 @@ fn unit_from_range(grid: &Grid) -> Result<Decided<WavelengthUnit>, ReadError> {
     let in_order = is_named(grid) || steady && grid.wavelengths.iter().any(|wavelength| wavelength.fract() != 0.0);
     let (min, max) = extent(grid.wavelengths.iter().copied());
     let line = grid.line(0);
-    // Energies that rise with wave numbers fall as wavelengths rise, which few tables of micrometers do.
-    if (0.5..6.5).contains(&min) && max <= 6.5 && steady && falls > rises && !is_named(grid) {
+    // Energies that rise with wave numbers fall as wavelengths rise, which few tables of micrometers do. Nor are those of whole and half nanometers micrometers.
+    let falling = (0.5..6.5).contains(&min) && falls > rises;
+    if max <= 6.5 && steady && (falling || are_energies(&grid.wavelengths)) && !is_named(grid) {
         return Err(ReadError::AmbiguousEnergies { line, min, max });
     }
     let unit = if min >= 1e-7 && max <= 25e-6 && in_order {
@@ -66,7 +67,7 @@ fn unit_from_range(grid: &Grid) -> Result<Decided<WavelengthUnit>, ReadError> {
         || (1000.0..3800.0).contains(&min) && (8000.0..=100_000.0).contains(&max)
     {
         return Err(ReadError::AmbiguousUnit { line, min, max });
-    } else if (is_bare(grid) || steady && falls > rises && !is_named(grid))
+    } else if (is_bare(grid) || steady && (falls > rises || is_even(&grid.wavelengths)) && !is_named(grid))
         && min >= 390.0
         && max > 3300.0
         && min < 2000.0
@@ -78,6 +79,19 @@ fn unit_from_range(grid: &Grid) -> Result<Decided<WavelengthUnit>, ReadError> {
         WavelengthUnit::Nanometer
     };
     Ok(Decided::guess(unit, format!("Wavelengths run from {min} to {max}")))
+}
+
+/// True for numbers that are mostly energies in eV of whole or half nanometers, h c / λ, of which micrometers are none.
+fn are_energies(numbers: &[f64]) -> bool {
+    let whole = |constant: f64| {
+        let half = |number: f64| 2.0 * constant / number;
+        let is_whole = |number: &&f64| (half(**number) - half(**number).round()).abs() < 0.04;
+        // The longest wavelengths are rounded.
+        let sharp = || numbers.iter().filter(|number| **number > 1.0);
+        let count = sharp().count();
+        count > 10 && 10 * sharp().filter(is_whole).count() > 9 * count
+    };
+    [1240.0, 1239.84, 1_239.841_984].into_iter().any(whole)
 }
 
 /// Numbered columns from which on they are no curves beside a column of wavelengths.
@@ -113,6 +127,13 @@ fn no_other_axis(grid: &Grid) -> Result<(), ReadError> {
 fn is_named(grid: &Grid) -> bool {
     let column = grid.wavelength_column.unwrap_or(1).saturating_sub(1);
     grid.header.name(column).is_some_and(header_terms::begins_with_wavelengths)
+}
+
+/// True for equal steps that are no whole numbers, as between the wave numbers of a Fourier transform.
+fn is_even(numbers: &[f64]) -> bool {
+    let mut steps = numbers.windows(2).map(|pair| pair[1] - pair[0]);
+    let Some(first) = steps.next().filter(|first| (first - first.round()).abs() > 0.01) else { return false };
+    steps.all(|step| (step - first).abs() <= 0.01 * first.abs())
 }
 
 fn is_bare(grid: &Grid) -> bool {

@@ -85,6 +85,7 @@ impl Header {
                 self.shifted = true;
             }
             self.set_names(number, with_other_axis(cells, layout, rows.clone().next()));
+            self.take_times(near, layout);
             if self.units.is_empty() && !is_comment {
                 self.take_samples(rows.next(), rows.next().is_none() && self.comments.is_empty(), layout);
             }
@@ -176,6 +177,26 @@ impl Header {
             let uncertain = uncertainty_terms::term(unit_text::without_unit(&own), &own).is_some();
             self.names[column] = if uncertain { format!("{name} {own}") } else { name.to_owned() };
             self.units[column] = if uncertain || own.eq_ignore_ascii_case("y") { String::new() } else { own };
+        }
+    }
+
+    /// Tells curves of one name apart by dates and times in rows above them.
+    fn take_times(&mut self, near: &[(usize, &str)], layout: &Layout) {
+        let alike = self.names.len() > 2 && self.names[1..].iter().all(|name| *name == self.names[1]);
+        let rows = near.iter().map(|(_, line)| split(layout.dialect(), line));
+        let is_time = |cells: &Vec<String>| is_one(&lower(&cells[0]), "date|time") && cells.len() == self.names.len();
+        let rows: Vec<Vec<String>> = rows.filter(|cells| !cells.is_empty()).filter(is_time).collect();
+        if !alike || rows.is_empty() {
+            return;
+        }
+        let when = |column: usize| rows.iter().map(|cells| cells[column].as_str()).collect::<Vec<_>>().join(" ");
+        let times: BTreeSet<String> = (1..self.names.len()).map(when).collect();
+        if times.len() + 1 == self.names.len() {
+            self.units = std::mem::take(&mut self.names);
+            self.names = (0..self.units.len())
+                .map(|column| if column == 0 { self.units[0].clone() } else { when(column) })
+                .collect();
+            self.units[0].clear();
         }
     }
 

@@ -130,6 +130,10 @@ fn by_numbers(grid: &Grid, trusted: bool, evidence: &Evidence, log: &mut Log<'_>
         })
         .collect();
     warn_of_others(grid, &columns, log);
+    let small = || grid.curves.iter().zip(&looks).filter(|(_, looks)| **looks == Some(Looks::Plain));
+    if let Some((curve, _)) = small().next().filter(|_| others == Values::Percent) {
+        log.push(Warning::SmallAmongPercent { count: small().count(), first: curve.description() });
+    }
     (Decided::guess(Values::Percent, why()), columns)
 }
 
