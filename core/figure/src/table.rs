@@ -375,14 +375,17 @@ impl Table {
     /// Aligned columns for reading: texts to the left; numbers to the right with decimal points and uncertainties below
     /// each other; a dash for nothing.
     pub fn to_text(&self) -> String {
+        let length = |cell: &String| cell.chars().count();
         let columns: Vec<(bool, Vec<String>)> = (0..self.columns.len()).map(|place| self.aligned(place)).collect();
+        let widths = self.columns.iter().zip(&columns);
+        let widths: Vec<usize> =
+            widths.map(|(column, (_, cells))| cells.iter().map(length).fold(column.width, usize::max)).collect();
         let mut text = String::new();
         for row in 0..=self.rows.len() {
             let start = text.len();
-            for (column, (is_text, cells)) in self.columns.iter().zip(&columns) {
-                let width = cells.iter().map(|cell| cell.chars().count()).fold(column.width, usize::max);
+            for (width, (is_text, cells)) in widths.iter().zip(&columns) {
                 let cell = &cells[row];
-                let padding = " ".repeat(width.saturating_sub(cell.chars().count()));
+                let padding = " ".repeat(width.saturating_sub(length(cell)));
                 let [left, right] = if *is_text { ["", &*padding] } else { [&*padding, ""] };
                 text.extend([left, cell, right, "  "]);
             }
