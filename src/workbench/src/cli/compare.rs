@@ -130,8 +130,6 @@ struct Row {
     all: CameraFigures,
     /// Values of the comparison's metrics, in their order.
     values: Vec<MetricValue>,
-    /// Their ranks from 1, as ranges.
-    ranks: Vec<Option<[usize; 2]>>,
     /// Rank by the metric that orders the rows.
     rank: Option<[usize; 2]>,
 }
@@ -234,8 +232,6 @@ fn rows(
         found.iter().map(|(_, _, all)| all.of(metric).unwrap_or(missing)).collect()
     };
     let columns: Vec<_> = metrics.iter().map(|metric| values(*metric)).collect();
-    let ranks: Vec<_> =
-        metrics.iter().zip(&columns).map(|(metric, values)| rank_ranges(metric.better, values)).collect();
     let sorting = sorted_by.map(|metric| (metric, values(metric)));
     let sorting_ranks = sorting.as_ref().map(|(metric, values)| rank_ranges(metric.better, values));
     let merit = |at: usize| {
@@ -256,7 +252,6 @@ fn rows(
             name: name.clone(),
             all: all.clone(),
             values: columns.iter().map(|values| values[at]).collect(),
-            ranks: ranks.iter().map(|ranks| ranks[at]).collect(),
             rank: sorting_ranks.as_ref().and_then(|ranks| ranks[at]),
         }
     };
@@ -375,8 +370,13 @@ fn json(comparison: &Comparison) -> String {
         told.insert(tables::ENDS.to_owned(), of.ends.iter().map(end).collect());
         Some(Value::Object(told))
     };
+    let ranks = |(place, metric): (usize, &CameraMetric)| {
+        rank_ranges(metric.better, &comparison.rows.iter().map(|row| row.values[place]).collect::<Vec<_>>())
+    };
+    let ranks: Vec<_> = comparison.metrics.iter().enumerate().map(ranks).collect();
     let camera = |(at, row): (usize, &Row)| {
-        let values = comparison.metrics.iter().zip(&row.values).zip(&row.ranks).map(|((metric, value), rank)| {
+        let values = comparison.metrics.iter().zip(&row.values).zip(&ranks).map(|((metric, value), ranks)| {
+            let rank = ranks[at];
             let told = match value.value {
                 Ok(number) => {
                     let standard = value.uncertainty.map(|u| u.standard);
