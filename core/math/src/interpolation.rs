@@ -81,7 +81,7 @@ impl Sprague {
     pub fn at(&self, x: f64) -> f64 {
         let last = self.padded.len() - 5;
         let position = ((x - self.start) / self.step).clamp(0.0, last as f64);
-        let cell = position.floor() as usize;
+        let cell = position as usize;
         if cell == last {
             // The polynomial gives the last sample but for rounding, which would turn a zero into a faint signal.
             return self.padded[last + 2];

@@ -41,15 +41,15 @@ pub fn matrix_keeping(samples: &[DVec3], targets: &[DVec3], white: DVec3, image:
     let n1 = along.any_orthonormal_vector();
     let n2 = along.cross(n1);
     let fixed = image / length;
-    let mut first: Vec<f64> = samples.iter().map(|a| n1.dot(*a)).collect();
-    let mut second: Vec<f64> = samples.iter().map(|a| n2.dot(*a)).collect();
+    let mut both: Vec<f64> = [n1, n2].iter().flat_map(|n| samples.iter().map(|a| n.dot(*a))).collect();
+    let (first, second) = both.split_at_mut(samples.len());
     let scale = samples.iter().map(|a| a.length_squared()).sum::<f64>().sqrt();
-    let r11 = normalize(&mut first, scale)?;
-    let r12: f64 = first.iter().zip(&second).map(|(q, v)| q * v).sum();
-    second.iter_mut().zip(&first).for_each(|(v, q)| *v -= r12 * q);
-    let r22 = normalize(&mut second, scale)?;
+    let r11 = normalize(first, scale)?;
+    let r12: f64 = first.iter().zip(&*second).map(|(q, v)| q * v).sum();
+    second.iter_mut().zip(&*first).for_each(|(v, q)| *v -= r12 * q);
+    let r22 = normalize(second, scale)?;
     let (mut c1, mut c2) = (DVec3::ZERO, DVec3::ZERO);
-    for ((sample, target), (q1, q2)) in samples.iter().zip(targets).zip(first.iter().zip(&second)) {
+    for ((sample, target), (q1, q2)) in samples.iter().zip(targets).zip(first.iter().zip(&*second)) {
         let residual = *target - fixed * along.dot(*sample);
         c1 += residual * *q1;
         c2 += residual * *q2;
@@ -91,15 +91,14 @@ pub fn linear_fit<R: AsRef<[f64]>>(rows: &[R], targets: &[DVec3], keep: Option<D
     let mut residuals: Vec<DVec3> =
         all().zip(targets).map(|(row, target)| first.map_or(*target, |first| *target - first * row[0])).collect();
     let scale = all().flatten().map(|v| v * v).sum::<f64>().sqrt();
-    let mut columns: Vec<Vec<f64>> = (fixed..terms).map(|j| all().map(|row| row[j]).collect()).collect();
-    let count = columns.len();
-    let mut upper = vec![vec![0.0; count]; count];
+    let mut columns: Vec<f64> = (fixed..terms).flat_map(|j| all().map(move |row| row[j])).collect();
+    let count = terms - fixed;
+    let mut upper = vec![0.0; count * count];
     let mut projected = vec![DVec3::ZERO; count];
-    for (j, (upper, projected)) in upper.iter_mut().zip(&mut projected).enumerate() {
-        let (done, rest) = columns.split_at_mut(j + 1);
-        let column = &mut done[j];
+    for (j, (upper, projected)) in upper.chunks_mut(count).zip(&mut projected).enumerate() {
+        let (column, rest) = columns[j * rows.len()..].split_at_mut(rows.len());
         upper[j] = normalize(column, scale)?;
-        for (other, factor) in rest.iter_mut().zip(&mut upper[j + 1..]) {
+        for (other, factor) in rest.chunks_mut(rows.len()).zip(&mut upper[j + 1..]) {
             *factor = column.iter().zip(other.iter()).map(|(q, v)| q * v).sum();
             other.iter_mut().zip(column.iter()).for_each(|(v, q)| *v -= *factor * q);
         }
@@ -107,10 +106,10 @@ pub fn linear_fit<R: AsRef<[f64]>>(rows: &[R], targets: &[DVec3], keep: Option<D
         residuals.iter_mut().zip(column.iter()).for_each(|(b, q)| *b -= *projected * *q);
     }
     for j in (0..count).rev() {
-        let known: DVec3 = (j + 1..count).map(|k| projected[k] * upper[j][k]).sum();
-        projected[j] = (projected[j] - known) / upper[j][j];
+        let known: DVec3 = (j + 1..count).map(|k| projected[k] * upper[j * count + k]).sum();
+        projected[j] = (projected[j] - known) / upper[j * count + j];
     }
-    let leverages = (0..rows.len()).map(|i| columns.iter().map(|q| q[i] * q[i]).sum()).collect();
+    let leverages = (0..rows.len()).map(|i| columns.iter().skip(i).step_by(rows.len()).map(|q| q * q).sum()).collect();
     let mut coefficients: Vec<DVec3> = first.into_iter().chain(projected).collect();
     if keep.is_some() {
         for channel in 0..3 {

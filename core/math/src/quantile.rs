@@ -16,5 +16,5 @@ pub fn quantile(values: &mut [f64], share: f64) -> Option<f64> {
     let h = values.len().checked_sub(1)? as f64 * share.clamp(0.0, 1.0);
     let (_, &mut below, above) = values.select_nth_unstable_by(h as usize, f64::total_cmp);
     let next = above.iter().copied().min_by(f64::total_cmp).unwrap_or(below);
-    Some(below + (next - below) * h.fract())
+    Some(below + (next - below) * (h - h as usize as f64))
 }

@@ -3,6 +3,7 @@
 use super::locus::LocusEvaluator;
 use super::rendering::Rendering;
 use crate::colorimetry::{Uv60, UvPrime};
+use crate::math::array::array;
 use crate::math::minimum::minimum;
 use crate::spectral::Sensor;
 use crate::units::Kelvin;
@@ -76,14 +77,15 @@ impl<S: Deref<Target = Sensor>> ReferenceLocus<S> {
         let start = (place as usize).saturating_sub(NODES / 2 - 1).min(POINTS - NODES);
         let nodes = &self.points[start..start + NODES];
         let within = place - start as f64;
-        let place = if within.fract() == 0.0 {
-            nodes[within as usize].1
+        let node = within as usize;
+        let place = if within == node as f64 {
+            nodes[node].1
         } else {
             // Barycentric weights of evenly spaced nodes: binomial coefficients in turns of sign.
             const WEIGHTS: [f64; NODES] = [1.0, -7.0, 21.0, -35.0, 35.0, -21.0, 7.0, -1.0];
             let (mut u, mut v, mut all) = (0.0, 0.0, 0.0);
-            for (node, ((_, place), weight)) in nodes.iter().zip(WEIGHTS).enumerate() {
-                let weight = weight / (within - node as f64);
+            let weights = array::<_, NODES>(|node| WEIGHTS[node] / (within - node as f64));
+            for ((_, place), weight) in nodes.iter().zip(weights) {
                 (u, v, all) = (u + weight * place.u, v + weight * place.v, all + weight);
             }
             Uv60 { u: u / all, v: v / all }
@@ -139,7 +141,7 @@ fn nearest(points: &[(f64, Uv60)], at: impl Fn(f64) -> Option<UvPrime>, color: U
     // Newton's method: the tangent is perpendicular to the way to the color.
     let nearer = |mired: f64| {
         // On a lattice: colors that differ by rounding alone then see the same rounding of the locus.
-        let mired = (mired * LATTICE).round() / LATTICE;
+        let mired = (mired * LATTICE + 0.5) as u64 as f64 / LATTICE;
         let [before, here, after] = [mired - STEP_MIRED, mired, mired + STEP_MIRED].map(at);
         let tangent = (after - before) / (2.0 * STEP_MIRED);
         let bend = (after - 2.0 * here + before) / (STEP_MIRED * STEP_MIRED);
