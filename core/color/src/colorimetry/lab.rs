@@ -1,7 +1,12 @@
 //! CIE 1976 L*a*b*.
 
 use super::tristimulus::Xyz;
-use crate::math::cbrt::cbrt;
+use crate::math::array::{array, each};
+use crate::math::cbrt::cbrt_each;
+use multiversion::multiversion;
+
+/// Colors side by side: any register's width.
+const LANES: usize = 8;
 
 /// Coordinates in the CIE 1976 L*a*b* space, relative to a white.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,8 +28,33 @@ pub struct Lab {
 /// f(t) = t (29/6)² / 3 + 4/29   otherwise, negative values included
 /// ```
 pub fn lab_from_xyz(color: Xyz, white: Xyz) -> Option<Lab> {
+    let [x, y, z] = f([color.x / white.x, color.y / white.y, color.z / white.z]);
+    lab(white, x, y, z)
+}
+
+/// The same of many colors, equal to the last bit; none unless all have one.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
+pub fn lab_from_each(colors: &[Xyz], white: Xyz) -> Option<Vec<Lab>> {
+    let mut labs = Vec::with_capacity(colors.len());
+    for colors in colors.chunks(LANES) {
+        let mut ratios = [[0.0; LANES]; 3];
+        for (lane, color) in colors.iter().enumerate() {
+            ratios[0][lane] = color.x / white.x;
+            ratios[1][lane] = color.y / white.y;
+            ratios[2][lane] = color.z / white.z;
+        }
+        let [x, y, z] = [f(ratios[0]), f(ratios[1]), f(ratios[2])];
+        for lane in 0..colors.len() {
+            labs.push(lab(white, x[lane], y[lane], z[lane])?);
+        }
+    }
+    Some(labs)
+}
+
+/// From compressed ratios.
+#[inline(always)]
+fn lab(white: Xyz, x: f64, y: f64, z: f64) -> Option<Lab> {
     let positive = [white.x, white.y, white.z].iter().all(|&w| w > 0.0 && w.is_finite());
-    let [x, y, z] = [color.x / white.x, color.y / white.y, color.z / white.z].map(f);
     let lab = Lab { l: 116.0 * y - 16.0, a: 500.0 * (x - y), b: 200.0 * (y - z) };
     (positive && lab.l.is_finite() && lab.a.is_finite() && lab.b.is_finite()).then_some(lab)
 }
@@ -58,13 +88,16 @@ impl Lab {
 
 /// L* of a ratio Y/Yₙ.
 pub fn lightness(ratio: f64) -> f64 {
-    116.0 * f(ratio) - 16.0
+    116.0 * f([ratio])[0] - 16.0
 }
 
 /// End of the straight part of the formula above, compressed.
 const EDGE: f64 = 6.0 / 29.0;
 
-/// The compressed ratio of the formula above.
-fn f(t: f64) -> f64 {
-    if t > EDGE * EDGE * EDGE { cbrt(t) } else { t / (3.0 * EDGE * EDGE) + 4.0 / 29.0 }
+/// The compressed ratios of the formula above.
+#[inline(always)]
+fn f<const N: usize>(t: [f64; N]) -> [f64; N] {
+    let roots = cbrt_each(t);
+    let lines = each(t, |t| t / (3.0 * EDGE * EDGE) + 4.0 / 29.0);
+    array(|k| if t[k] > EDGE * EDGE * EDGE { roots[k] } else { lines[k] })
 }
