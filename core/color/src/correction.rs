@@ -19,6 +19,7 @@ use glam::{DMat3, DVec3};
 use minimize::{Objective, minimize, minimize_near};
 use rayon::prelude::*;
 use root_polynomial::{Degree, RootPolynomial};
+use std::borrow::Cow;
 use std::sync::Arc;
 
 /// Method by which a color transform is found.
@@ -138,11 +139,8 @@ impl Training<'_> {
         match correction.method {
             CorrectionMethod::None => uncorrected(white).map(RgbTransform::Matrix),
             CorrectionMethod::LeastSquares if correction.keeps_white => {
-                let scaled = |values: &[DVec3]| -> Vec<DVec3> {
-                    values.iter().zip(self.weights).map(|(value, weight)| *value * weight.sqrt()).collect()
-                };
-                matrix_keeping(&scaled(self.samples), &scaled(self.targets), DVec3::ONE, image)
-                    .map(RgbTransform::Matrix)
+                let [samples, targets] = [self.samples, self.targets].map(|values| self.scaled(values));
+                matrix_keeping(&samples, &targets, DVec3::ONE, image).map(RgbTransform::Matrix)
             }
             CorrectionMethod::LeastSquares => {
                 let coefficients = self.linear(None, |rgb| rgb.to_array())?.coefficients;
@@ -222,6 +220,14 @@ impl Training<'_> {
         (0..self.samples.len()).into_par_iter().map(without).collect()
     }
 
+    /// Values times the roots of their weights; the values themselves, as mostly, where all weights are 1.
+    fn scaled<'a>(&self, values: &'a [DVec3]) -> Cow<'a, [DVec3]> {
+        if self.weights.iter().all(|weight| *weight == 1.0) {
+            return Cow::Borrowed(values);
+        }
+        values.iter().zip(self.weights).map(|(value, weight)| *value * weight.sqrt()).collect()
+    }
+
     fn linear<R: AsMut<[f64]> + AsRef<[f64]>>(
         self,
         keep: Option<DVec3>,
@@ -233,9 +239,7 @@ impl Training<'_> {
             row
         });
         let rows: Vec<R> = rows.collect();
-        let targets = self.targets.iter().zip(self.weights);
-        let targets: Vec<DVec3> = targets.map(|(target, weight)| *target * weight.sqrt()).collect();
-        linear_fit(&rows, &targets, keep)
+        linear_fit(&rows, &self.scaled(self.targets), keep)
     }
 }
 
