@@ -70,9 +70,9 @@ fn statistics_are_those_of_numpy() {
     let expected = [3.291_666_666_666_667, 2.5, 7.75, 9.0];
     let all = [Statistic::Mean, Statistic::Median, Statistic::Percentile95, Statistic::Maximum];
     for (statistic, expected) in all.into_iter().zip(expected) {
-        assert_near("statistic", statistic.over(values.to_vec()).unwrap(), expected, 1e-14);
-        assert_eq!(statistic.over(Vec::new()), None);
-        assert_eq!(statistic.over(vec![7.0]), Some(7.0));
+        assert_near("statistic", statistic.over(&values).unwrap(), expected, 1e-14);
+        assert_eq!(statistic.over(&[]), None);
+        assert_eq!(statistic.over(&[7.0]), Some(7.0));
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::dot::dot;
 use crate::random::SplitMix64;
+use multiversion::multiversion;
 
 /// Pairs of draws where nothing tells which directions matter: a spread is known to 6 %.
 const PAIRS: usize = 128;
@@ -153,11 +154,17 @@ fn nearly_normal(random: &mut SplitMix64) -> f64 {
 }
 
 /// A vector without its components in the space of orthonormal ones.
-pub fn without(vector: &[f64], space: &[Vec<f64>]) -> Vec<f64> {
+fn without(vector: &[f64], space: &[Vec<f64>]) -> Vec<f64> {
     let mut rest = vector.to_vec();
-    for axis in space {
-        let along = dot(&rest, axis);
-        rest.iter_mut().zip(axis).for_each(|(v, a)| *v -= along * a);
-    }
+    take_out(&mut rest, space);
     rest
+}
+
+/// Takes from a vector its components in the space of orthonormal ones.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
+pub fn take_out(vector: &mut [f64], space: &[Vec<f64>]) {
+    for axis in space {
+        let along = dot(vector, axis);
+        vector.iter_mut().zip(axis).for_each(|(v, a)| *v -= along * a);
+    }
 }

@@ -33,7 +33,11 @@ pub fn comparable_by_paper(a: Primaries, b: Primaries) -> Result<(), DifferenceE
 ///
 /// # Errors
 /// [`DifferenceError`] where a color has no chromaticity, or no L\*a\*b\* where the metric needs it.
-pub fn difference<T: Coordinates>(metric: Metric, reference: &T, sample: &T) -> Result<f64, DifferenceError> {
+pub fn difference(
+    metric: Metric,
+    reference: &impl Coordinates,
+    sample: &impl Coordinates,
+) -> Result<f64, DifferenceError> {
     let undefined = if metric.needs_adopted_white() { DifferenceError::NoLab } else { DifferenceError::NoChromaticity };
     metric.between(reference, sample).ok_or(undefined)
 }

@@ -126,22 +126,17 @@ impl Query for PatchColorsQuery {
 }
 
 pub(super) fn color(rendering: &Rendering, raw: DVec3) -> PatchColor {
-    let color = unseen(rendering, raw);
-    PatchColor { srgb: encode_srgb(color.linear), ..color }
-}
-
-/// The same without the color on a screen, which costs as much as all else.
-pub(super) fn unseen(rendering: &Rendering, raw: DVec3) -> PatchColor {
     let signals = rendering.patch_signals(raw.to_array());
     let xyz = rendering.xyz(signals);
+    let linear = rendering.linear_srgb(xyz);
     PatchColor {
         rgb: rendering.is_rgb.then(|| signals.to_array()),
         xyz,
         xy: xyz.chromaticity(),
         uv: xyz.uv_prime(),
         lab: rendering.lab(xyz),
-        linear: rendering.linear_srgb(xyz),
-        srgb: EncodedSrgb::default(),
+        linear,
+        srgb: encode_srgb(linear),
     }
 }
 

@@ -6,7 +6,6 @@ use crate::math::normal::CovarianceRoot;
 use crate::spectral::grid::{COUNT, FIRST_NM};
 use crate::spectral::{Dataset, Sensor};
 use crate::units::{bits, hash_by};
-use glam::DVec3;
 use multiversion::multiversion;
 
 /// Wavelengths that the spread is known at: 400, 410, …, 700 nm.
@@ -98,15 +97,12 @@ pub fn site_curve(site: usize) -> [f64; COUNT] {
     values
 }
 
-/// Spectra side by side: any register's width.
-const LANES: usize = 8;
+/// Spectra side by side: two registers of any width, because the sums of one wait for each other.
+pub const LANES: usize = 16;
 
 /// Responses to spectra of a deviation of 1 at each site, from which those of any deviation follow.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SiteResponses {
-    count: usize,
-    blocks: Vec<[[f64; LANES]; SITES]>,
-}
+pub struct SiteResponses(Vec<[[f64; LANES]; SITES]>);
 
 /// Responses to spectra of a deviation of 1 at each site, integrated over 400–700 nm as tables are, with half weights at the ends.
 pub fn site_responses(spectra: &[[f64; COUNT]]) -> Vec<[f64; SITES]> {
@@ -126,15 +122,12 @@ impl SiteResponses {
         let block = |responses: &[[f64; SITES]]| {
             std::array::from_fn(|site| std::array::from_fn(|lane| responses.get(lane).map_or(0.0, |of| of[site])))
         };
-        Self { count: responses.len(), blocks: responses.chunks(LANES).map(block).collect() }
+        Self(responses.chunks(LANES).map(block).collect())
     }
 
-    /// Responses of the three channels' deviations, for each spectrum.
-    pub fn of(&self, deviation: &Deviation) -> impl Iterator<Item = DVec3> {
-        let lanes = |[red, green, blue]: [[f64; LANES]; 3]| {
-            std::array::from_fn::<_, LANES, _>(|lane| DVec3::new(red[lane], green[lane], blue[lane]))
-        };
-        self.blocks.iter().flat_map(move |block| lanes(response(block, deviation))).take(self.count)
+    /// Responses of each of the three channels' deviations to [`LANES`] spectra after the other; beyond the last, zeros.
+    pub fn of(&self, deviation: &Deviation) -> impl Iterator<Item = [[f64; LANES]; 3]> {
+        self.0.iter().map(|block| response(block, deviation))
     }
 }
 
@@ -156,9 +149,9 @@ fn response(block: &[[f64; LANES]; SITES], deviation: &Deviation) -> [[f64; LANE
 /// A sensor's curves at the sites with each channel's peak between them at 1, and these peaks.
 pub fn at_sites(sensor: &Sensor) -> (Deviation, [f64; 3]) {
     let [first, last] = SITE_RANGE;
-    let peaks =
-        [0, 1, 2].map(|c: usize| (first..=last).map(|i| sensor.at_index(i)[c]).fold(f64::MIN_POSITIVE, f64::max));
+    let curves = [0, 1, 2].map(|channel| sensor.on_grid(channel));
+    let peaks = curves.each_ref().map(|curve| curve[first..=last].iter().copied().fold(f64::MIN_POSITIVE, f64::max));
     let step = STEP_NM as usize;
-    let at = |c: usize| std::array::from_fn(|site| sensor.at_index(first + step * site)[c] / peaks[c]);
+    let at = |c: usize| std::array::from_fn(|site| curves[c][first + step * site] / peaks[c]);
     ([at(0), at(1), at(2)], peaks)
 }

@@ -4,15 +4,14 @@
 //! residual power at each wavelength, the metamerism index the colors of surfaces.
 
 use crate::camera::rendering::{Rendering, RenderingError, raw, under_light, white_divisors};
-use crate::colorimetry::lab::lab_from_xyz;
+use crate::colorimetry::lab::{lab_from_each, lab_from_xyz};
 use crate::colorimetry::{Lab, Xyz, delta_e_1976};
 use crate::correction::minimize::{Objective, Refit};
 use crate::correction::{Correction, CorrectionMethod, RgbTransform, Training};
 use crate::math::dot::dot;
 use crate::math::least_squares::FitError;
-use crate::math::normal::without;
+use crate::math::normal::take_out;
 use crate::patch_set::PatchSet;
-use crate::spectral::grid::COUNT;
 use crate::spectral::{GridSpectrum, Sensor};
 use crate::units::{bits, hash_by};
 use glam::{DMat3, DVec3};
@@ -95,11 +94,10 @@ impl IndexSamples {
 
     /// The index of samples through a transform.
     pub fn of(&self, samples: &[DVec3], transform: &RgbTransform) -> Option<f64> {
-        let differences = samples.iter().zip(self.wanted.as_ref()?).map(|(sample, wanted)| {
-            let found = lab_from_xyz(Xyz::from_vector(transform.xyz(*sample)), self.white)?;
-            Some(delta_e_1976(found, *wanted))
-        });
-        let sum: f64 = differences.sum::<Option<f64>>()?;
+        let colors: Vec<Xyz> = samples.iter().map(|sample| Xyz::from_vector(transform.xyz(*sample))).collect();
+        let found = lab_from_each(&colors, self.white)?;
+        let sum: f64 =
+            found.iter().zip(self.wanted.as_ref()?).map(|(found, wanted)| delta_e_1976(*found, *wanted)).sum();
         Some(100.0 - 5.5 * sum / samples.len() as f64)
     }
 }
@@ -119,8 +117,8 @@ pub struct NoiseAmplification {
     /// Noise-gain factor Ψ of US patent 5609978 (1997): sum of the lengths of the rows of M, the matrix from balanced exposures to those
     /// of the primaries of BT.709. 3 for a camera that needs no matrix; the patent requires at most 6.5.
     pub psi: f64,
-    /// Condition number of N: ratio of its largest to its smallest singular value.
-    pub condition: f64,
+    /// N.
+    matrix: DMat3,
 }
 
 #[cfg(feature = "fits")]
@@ -133,8 +131,14 @@ impl NoiseAmplification {
         if gains.abs().min_element() == 0.0 || !all.is_finite() {
             return None;
         }
-        let found = Self { rows: row_lengths(all), psi: row_lengths(matrix).iter().sum(), condition: condition(all) };
-        found.condition.is_finite().then_some(found)
+        Some(Self { rows: row_lengths(all), psi: row_lengths(matrix).iter().sum(), matrix: all })
+    }
+
+    /// Condition number of N: ratio of its largest to its smallest singular value; none for a singular matrix. Found when it is asked
+    /// for, because it takes longer than all else here.
+    pub fn condition(&self) -> Option<f64> {
+        let values = nalgebra::Matrix3::from_column_slice(&self.matrix.to_cols_array()).singular_values();
+        Some(values.max() / values.min()).filter(|ratio| ratio.is_finite())
     }
 }
 
@@ -146,13 +150,6 @@ fn srgb_from_balanced(rendering: &Rendering) -> DMat3 {
 #[cfg(feature = "fits")]
 fn row_lengths(matrix: DMat3) -> [f64; 3] {
     [0, 1, 2].map(|row| matrix.row(row).length())
-}
-
-/// Ratio of the largest to the smallest singular value of a finite matrix; not finite for a singular one.
-#[cfg(feature = "fits")]
-fn condition(matrix: DMat3) -> f64 {
-    let values = nalgebra::Matrix3::from_column_slice(&matrix.to_cols_array()).singular_values();
-    values.max() / values.min()
 }
 
 /// Electrons that a pixel holds, and its read noise.
@@ -249,6 +246,8 @@ pub struct ObserverSpace {
     /// Curves on the grid in one scale.
     pub curves: [Vec<f64>; 3],
     basis: Vec<Vec<f64>>,
+    /// Sum of their squared lengths.
+    power: f64,
 }
 
 impl ObserverSpace {
@@ -259,25 +258,23 @@ impl ObserverSpace {
 
     /// Space of an observer's curves on the grid, or in coordinates of an orthonormal basis; none where they are linearly dependent.
     pub fn of(curves: [Vec<f64>; 3]) -> Option<Self> {
-        Some(Self { basis: basis(&curves)?, curves })
+        Some(Self { basis: basis(&curves)?, power: curves.iter().map(|curve| dot(curve, curve)).sum(), curves })
     }
 
     /// Agreement of a sensor's curves, in one scale and the coordinates of the observer's; none where they are linearly dependent.
     pub fn quality(&self, channels: &[Vec<f64>; 3]) -> Option<SpaceQuality> {
         let (own, seen) = (basis(channels)?, &self.basis);
         let vora = own.iter().map(|curve| inside(curve, seen)).sum::<f64>() / 3.0;
-        let power: f64 = self.curves.iter().map(|curve| dot(curve, curve)).sum();
         let left: f64 = self.curves.iter().map(|curve| outside(curve, &own)).sum();
         let factors = channels.each_ref().map(|curve| inside(curve, seen) / dot(curve, curve));
-        Some(SpaceQuality { vora, luther: (left / power).sqrt(), factors })
+        Some(SpaceQuality { vora, luther: (left / self.power).sqrt(), factors })
     }
 }
 
 /// The three curves on the grid, each scaled to its largest value: neither spaces nor ratios within a curve's set change where all
 /// three have one scale, and squares neither overflow nor vanish.
 pub fn curves(sensor: &Sensor) -> [Vec<f64>; 3] {
-    let mut curves =
-        [0, 1, 2].map(|channel: usize| (0..COUNT).map(|i| sensor.at_index(i)[channel]).collect::<Vec<_>>());
+    let mut curves = [0, 1, 2].map(|channel| sensor.on_grid(channel));
     let largest = curves.iter().flatten().fold(0.0_f64, |m, v| m.max(v.abs()));
     curves.iter_mut().flatten().for_each(|v| *v /= largest);
     curves
@@ -288,7 +285,9 @@ pub fn basis(curves: &[Vec<f64>; 3]) -> Option<Vec<Vec<f64>>> {
     let mut found: Vec<Vec<f64>> = Vec::with_capacity(3);
     for curve in curves {
         let length = dot(curve, curve).sqrt();
-        let rest = without(&without(curve, &found), &found);
+        let mut rest = curve.clone();
+        take_out(&mut rest, &found);
+        take_out(&mut rest, &found);
         let left = dot(&rest, &rest).sqrt();
         if left.is_nan() || left <= DEPENDENT * length {
             return None;
@@ -305,6 +304,7 @@ fn inside(curve: &[f64], space: &[Vec<f64>]) -> f64 {
 
 /// Squared length of what a projection onto a space leaves of a curve; by subtraction, so that it is exact where little is left.
 fn outside(curve: &[f64], space: &[Vec<f64>]) -> f64 {
-    let rest = without(curve, space);
+    let mut rest = curve.to_vec();
+    take_out(&mut rest, space);
     dot(&rest, &rest)
 }

@@ -106,19 +106,18 @@ impl Metric {
     }
 
     /// Differences of pairs; none where a coordinate is undefined.
-    pub fn between_each<'a, T: Coordinates + 'a>(
+    pub fn between_each<'a, A: Coordinates + 'a, B: Coordinates + 'a>(
         self,
-        mut pairs: impl Iterator<Item = (&'a T, &'a T)>,
+        pairs: impl Iterator<Item = (&'a A, &'a B)>,
     ) -> Option<Vec<f64>> {
         if self != Self::DELTA_E_2000 {
             return pairs.map(|(reference, sample)| self.between(reference, sample)).collect();
         }
-        let (references, samples): (Vec<Lab>, Vec<Lab>) =
-            pairs.try_fold((Vec::new(), Vec::new()), |(mut first, mut second), (reference, sample)| {
-                first.push(reference.lab()?);
-                second.push(sample.lab()?);
-                Some((first, second))
-            })?;
+        let [mut references, mut samples] = [0; 2].map(|_| Vec::with_capacity(pairs.size_hint().0));
+        for (reference, sample) in pairs {
+            references.push(reference.lab()?);
+            samples.push(sample.lab()?);
+        }
         let mut answers = vec![0.0; samples.len()];
         delta_e_2000_into(&references, &samples, &mut answers);
         Some(answers)

@@ -178,12 +178,14 @@ impl Sensor {
 
     /// `C_c(λ)` at a grid sample, without quadrature weight at the ends of the support.
     pub fn at_index(&self, index: usize) -> [f64; 3] {
-        let x = wavelength_nm(index);
-        [0, 1, 2].map(|c: usize| {
-            let [first, last] = support(&self.curves[c]);
-            let weight = if first < last && (x == first || x == last) { 0.5 } else { 1.0 };
-            self.weighted[c][index] / weight
-        })
+        [0, 1, 2].map(|c: usize| self.weighted[c][index] / weight(support(&self.curves[c]), index))
+    }
+
+    /// The same of one channel at all grid samples.
+    pub fn on_grid(&self, channel: usize) -> Vec<f64> {
+        let support = support(&self.curves[channel]);
+        let weighted = self.weighted[channel].iter().enumerate();
+        weighted.map(|(index, value)| value / weight(support, index)).collect()
     }
 
     /// Temperature in kelvins below which blackbodies through this sensor are extrapolated: their signals depend on a red tail that
@@ -212,13 +214,14 @@ fn support(curve: &SpectralDistribution) -> [f64; 2] {
 
 /// A curve on the grid times the trapezoid's weights over its support.
 fn weighted_on_grid(curve: &SpectralDistribution, quantity: Quantity) -> Box<[f64; COUNT]> {
-    let [first, last] = support(curve);
+    let support = support(curve);
     let mut values = Box::new(*GridSpectrum::resample(curve, quantity).values());
-    for (index, value) in values.iter_mut().enumerate() {
-        let x = wavelength_nm(index);
-        if first < last && (x == first || x == last) {
-            *value *= 0.5;
-        }
-    }
+    values.iter_mut().enumerate().for_each(|(index, value)| *value *= weight(support, index));
     values
+}
+
+/// The trapezoid's weight of a grid sample.
+fn weight([first, last]: [f64; 2], index: usize) -> f64 {
+    let x = wavelength_nm(index);
+    if first < last && (x == first || x == last) { 0.5 } else { 1.0 }
 }

@@ -3,7 +3,8 @@
 use super::value::WhyNot;
 use crate::compare::{comparable_by_paper, difference};
 use crate::patches::{ColorTransformSpec, PatchColor, RenderingQuery};
-use chromascope_color::colorimetry::{Lab, Metric};
+use chromascope_color::camera::Rendering;
+use chromascope_color::colorimetry::{Coordinates, Lab, Metric, Stimulus, UvPrime, Xy, Xyz, lab::lab_from_each};
 use chromascope_color::spectral::Primaries;
 use chromascope_math::quantile::quantile;
 use glam::DVec3;
@@ -40,6 +41,48 @@ pub struct PatchDifferences {
     pub angle_deg: Option<f64>,
 }
 
+/// A patch through a sensor as differences need it. Chromaticities follow when they are asked for: draws are many, and mostly nothing asks.
+#[derive(Clone, Copy)]
+pub(super) struct Seen {
+    stimulus: Stimulus,
+    linear: [f64; 3],
+}
+
+impl Seen {
+    /// Of raw responses.
+    pub(super) fn all(rendering: &Rendering, raw: &[DVec3]) -> Vec<Self> {
+        let xyz = |raw: &DVec3| rendering.xyz(rendering.patch_signals(raw.to_array()));
+        let colors: Vec<Xyz> = raw.iter().map(xyz).collect();
+        let labs = lab_from_each(&colors, rendering.lab_white);
+        let seen = |(at, &xyz): (usize, &Xyz)| {
+            // Where one has no L*a*b*, others may.
+            let lab = labs.as_ref().map_or_else(|| rendering.lab(xyz), |labs| Some(labs[at]));
+            Self { stimulus: Stimulus { xyz, lab }, linear: rendering.linear_srgb(xyz) }
+        };
+        colors.iter().enumerate().map(seen).collect()
+    }
+}
+
+impl From<&PatchColor> for Seen {
+    fn from(color: &PatchColor) -> Self {
+        Self { stimulus: Stimulus { xyz: color.xyz, lab: color.lab }, linear: color.linear }
+    }
+}
+
+impl Coordinates for Seen {
+    fn xy(&self) -> Option<Xy> {
+        self.stimulus.xy()
+    }
+
+    fn uv_prime(&self) -> Option<UvPrime> {
+        self.stimulus.uv_prime()
+    }
+
+    fn lab(&self) -> Option<Lab> {
+        self.stimulus.lab
+    }
+}
+
 /// Conditions under which differences have a meaning.
 #[derive(Clone, Copy)]
 pub(super) struct DifferenceConditions {
@@ -56,7 +99,7 @@ impl DifferenceConditions {
         Self { comparable, by_eq_13: paper && of_sample != Primaries::Xyz }
     }
 
-    pub(super) fn differences(&self, reference: &PatchColor, sample: &PatchColor) -> PatchDifferences {
+    pub(super) fn differences(&self, reference: &PatchColor, sample: &Seen) -> PatchDifferences {
         PatchDifferences {
             by_metric: Metric::ALL.iter().map(|&metric| self.difference(metric, reference, sample)).collect(),
             lch: self.lch(reference, sample),
@@ -64,23 +107,13 @@ impl DifferenceConditions {
         }
     }
 
-    pub(super) fn difference(
-        &self,
-        metric: Metric,
-        reference: &PatchColor,
-        sample: &PatchColor,
-    ) -> Result<f64, WhyNot> {
+    pub(super) fn difference(&self, metric: Metric, reference: &PatchColor, sample: &Seen) -> Result<f64, WhyNot> {
         self.defines(metric)?;
         Ok(difference(metric, reference, sample)?)
     }
 
     /// Differences of pairs.
-    pub(super) fn each(
-        &self,
-        metric: Metric,
-        references: &[PatchColor],
-        samples: &[PatchColor],
-    ) -> Result<Vec<f64>, WhyNot> {
+    pub(super) fn each(&self, metric: Metric, references: &[PatchColor], samples: &[Seen]) -> Result<Vec<f64>, WhyNot> {
         self.defines(metric)?;
         let pairs = || references.iter().zip(samples);
         metric
@@ -93,12 +126,12 @@ impl DifferenceConditions {
         if self.by_eq_13 && metric.needs_adopted_white() { Err(WhyNot::Eq13) } else { Ok(()) }
     }
 
-    pub(super) fn lch(&self, reference: &PatchColor, sample: &PatchColor) -> Option<[f64; 3]> {
-        let labs = reference.lab.zip(sample.lab).filter(|_| self.comparable.is_ok() && !self.by_eq_13);
+    pub(super) fn lch(&self, reference: &PatchColor, sample: &Seen) -> Option<[f64; 3]> {
+        let labs = reference.lab.zip(sample.lab()).filter(|_| self.comparable.is_ok() && !self.by_eq_13);
         labs.map(|(reference, sample)| lightness_chroma_hue(reference, sample))
     }
 
-    pub(super) fn angle_deg(&self, reference: &PatchColor, sample: &PatchColor) -> Option<f64> {
+    pub(super) fn angle_deg(&self, reference: &PatchColor, sample: &Seen) -> Option<f64> {
         angle_deg(reference.linear, sample.linear).filter(|_| self.comparable.is_ok())
     }
 }
@@ -121,12 +154,12 @@ fn angle_deg(a: [f64; 3], b: [f64; 3]) -> Option<f64> {
 
 impl Statistic {
     /// The statistic of some values, in any order; none of nothing.
-    pub fn over(self, mut values: Vec<f64>) -> Option<f64> {
+    pub fn over(self, values: &[f64]) -> Option<f64> {
         match self {
             Self::Mean => (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64),
-            Self::Median => quantile(&mut values, 0.5),
-            Self::Percentile95 => quantile(&mut values, 0.95),
-            Self::Maximum => values.into_iter().max_by(f64::total_cmp),
+            Self::Median => quantile(&mut values.to_vec(), 0.5),
+            Self::Percentile95 => quantile(&mut values.to_vec(), 0.95),
+            Self::Maximum => values.iter().copied().max_by(f64::total_cmp),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Inputs of the metrics, as separate queries, so that each is computed once whatever else changes.
 
-use super::differences::{DifferenceConditions, PatchDifferences, Statistic};
+use super::differences::{DifferenceConditions, PatchDifferences, Seen, Statistic};
 use super::table::CameraMetric;
 use super::value::{CameraMetricsQuery, IndexConditions, MetricSet, WhyNot};
 use crate::ask::{Ask, Query, Shared};
@@ -138,7 +138,7 @@ pub(super) struct Evidence<'a> {
     pub(super) reference: Arc<Colors>,
     /// Differences by each of `Metric::ALL`.
     pub(super) by_metric: [OnceCell<Result<Vec<f64>, WhyNot>>; Metric::ALL.len()],
-    pub(super) colors: Part<'a, Vec<PatchColor>>,
+    pub(super) colors: Part<'a, Vec<Seen>>,
     pub(super) locus: Part<'a, LocusDeviation>,
     pub(super) space: Part<'a, SpaceQuality>,
     /// By [`INDEX_METHODS`].
@@ -180,7 +180,9 @@ impl<'a> Evidence<'a> {
         };
         let way = DifferenceConditions::new(&of.rendering, &of.reference);
         Self {
-            colors: part(move || Ok((*colors(&of.rendering)).clone()?)),
+            colors: part(move || {
+                Ok((*colors(&of.rendering)).as_ref().map_err(|&e| e)?.iter().map(Seen::from).collect())
+            }),
             locus: part(|| {
                 let (rendering, reference) = (of.rendering.clone(), of.reference.clone());
                 *ask.ask(&LocusDeviationQuery { rendering, reference, temperature: of.temperature })
@@ -214,7 +216,7 @@ impl<'a> Evidence<'a> {
         self.of_pairs(|reference, sample| Ok(self.way.differences(reference, sample)))
     }
 
-    fn of_pairs<T>(&self, of: impl Fn(&PatchColor, &PatchColor) -> Result<T, WhyNot>) -> Result<Vec<T>, WhyNot> {
+    fn of_pairs<T>(&self, of: impl Fn(&PatchColor, &Seen) -> Result<T, WhyNot>) -> Result<Vec<T>, WhyNot> {
         let reference = (*self.reference).as_ref().map_err(|&e| e)?;
         let colors = self.colors.as_ref().map_err(|&e| e)?;
         reference.iter().zip(colors).map(|(reference, sample)| of(reference, sample)).collect()
@@ -227,7 +229,7 @@ impl<'a> Evidence<'a> {
             let colors = self.colors.as_ref().map_err(|&e| e)?;
             self.way.each(Metric::ALL[metric], reference, colors)
         });
-        of.over(values.clone()?).ok_or(WhyNot::NoPatches)
+        of.over(values.as_ref().map_err(|&e| e)?).ok_or(WhyNot::NoPatches)
     }
 
     /// Root mean square of ΔL\*, ΔC\*ab or ΔH\*ab.
@@ -237,7 +239,7 @@ impl<'a> Evidence<'a> {
 
     pub(super) fn mean(
         &self,
-        of: impl Fn(&DifferenceConditions, &PatchColor, &PatchColor) -> Option<f64>,
+        of: impl Fn(&DifferenceConditions, &PatchColor, &Seen) -> Option<f64>,
     ) -> Result<f64, WhyNot> {
         let values = self.of_pairs(|reference, sample| {
             // A component is missing for the reason that differences are.
@@ -245,7 +247,7 @@ impl<'a> Evidence<'a> {
             let unknown = WhyNot::Difference(DifferenceError::NoChromaticity);
             of(&self.way, reference, sample).ok_or_else(|| reason().unwrap_or(unknown))
         });
-        Statistic::Mean.over(values?).ok_or(WhyNot::NoPatches)
+        Statistic::Mean.over(&values?).ok_or(WhyNot::NoPatches)
     }
 
     /// Noise gain of one row of matrix ∘ balance.

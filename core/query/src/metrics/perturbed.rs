@@ -1,6 +1,6 @@
 //! Metrics of a camera whose curves deviate a little: from its linear responses alone, which deviate as the curves do.
 
-use super::differences::DifferenceConditions;
+use super::differences::{DifferenceConditions, Seen};
 use super::evidence::{
     Evidence, INDEX_METHODS, IndexSamplesQuery, MetamerismIndexQuery, ReferenceLocusQuery, channel_scale, gains, part,
     snr_db,
@@ -8,8 +8,8 @@ use super::evidence::{
 use super::table::CameraMetric;
 use super::value::{CameraMetricsQuery, IndexConditions, WhyNot};
 use crate::ask::{Ask, Query, Shared};
-use crate::patches::{FitTargetsQuery, PatchColor, PatchColorsQuery, unseen};
-use chromascope_color::camera::curve_spread::{Deviation, SITES, SiteResponses, site_curve, site_responses};
+use crate::patches::{FitTargetsQuery, PatchColor, PatchColorsQuery};
+use chromascope_color::camera::curve_spread::{Deviation, LANES, SITES, SiteResponses, site_curve, site_responses};
 use chromascope_color::camera::quality::{IndexSamples, ObserverSpace, SpaceQuality, curves};
 use chromascope_color::camera::{FitTargets, LocusDeviation, ReferenceLocus, Rendering, RenderingError};
 use chromascope_color::correction::classes::ClassWeights;
@@ -63,7 +63,7 @@ pub(super) struct Stimuli {
     /// Orthonormal basis of the curves of the sites and of the observer.
     basis: Vec<Vec<f64>>,
     /// Coordinates in it of the curve of each site.
-    sites: Vec<Vec<f64>>,
+    sites: SiteResponses,
     /// Coordinates in it of the observer's curves.
     seen: [Vec<f64>; 3],
 }
@@ -120,17 +120,16 @@ impl Query for StimuliQuery {
                 (0..basis.len() + 3)
                     .map(|at| std::array::from_fn(|site| place(at).map_or(0.0, |axis| dot(&of_sites[site], axis)))),
             );
-            let along =
-                |at: usize| place(at).map_or(DVec3::ZERO, |axis| wanted.each_ref().map(|of| dot(of, axis)).into());
-            *targets = targets.with((0..basis.len() + 3).map(along).collect());
+            *targets = targets.with(along(&wanted, &basis, basis.len() + 3));
             fewer = Some(basis);
         }
         let observer = ObserverSpace::new(&self.observer);
         let sites: Vec<Vec<f64>> = (0..SITES).map(|site| site_curve(site).to_vec()).collect();
         let curves = curves(&self.observer);
         let basis = orthonormal(Vec::new(), sites.iter().chain(&curves));
-        let (sites, seen) =
-            (sites.iter().map(|of| coordinates(of, &basis)).collect(), curves.map(|of| coordinates(&of, &basis)));
+        let along = |axis: &Vec<f64>| std::array::from_fn(|site| dot(&sites[site], axis));
+        let sites = SiteResponses::new(&basis.iter().map(along).collect::<Vec<_>>());
+        let seen = curves.map(|of| coordinates(&of, &basis));
         Stimuli {
             of_sites: SiteResponses::new(&responses),
             spectra,
@@ -152,6 +151,12 @@ fn channels(of: &[DVec3]) -> [Vec<f64>; 3] {
     [0, 1, 2].map(|channel| of.iter().map(|value| value[channel]).collect())
 }
 
+/// So many coordinates of red, green and blue in an orthonormal basis, 0 where it has fewer.
+fn along(of: &[Vec<f64>; 3], basis: &[Vec<f64>], count: usize) -> Vec<DVec3> {
+    let axis = |at: usize| basis.get(at).map_or(DVec3::ZERO, |axis| of.each_ref().map(|of| dot(of, axis)).into());
+    (0..count).map(axis).collect()
+}
+
 impl Stimuli {
     /// Responses of a sensor to all stimuli.
     fn raw(&self, sensor: &Sensor) -> Vec<DVec3> {
@@ -161,9 +166,7 @@ impl Stimuli {
             let own = channels(&raw.split_off(self.training));
             // What the sensor's own responses add to the basis has places of its own.
             let basis = orthonormal(fewer.clone(), &own);
-            let along =
-                |at: usize| basis.get(at).map_or(DVec3::ZERO, |axis| own.each_ref().map(|of| dot(of, axis)).into());
-            raw.extend((0..fewer.len() + 3).map(along));
+            raw.extend(along(&own, &basis, fewer.len() + 3));
         }
         raw
     }
@@ -171,11 +174,14 @@ impl Stimuli {
     /// The observer's space and a camera's curves in coordinates of one orthonormal basis.
     fn space(&self, curves: &[Vec<f64>; 3]) -> Option<(ObserverSpace, [Vec<f64>; 3])> {
         let basis = orthonormal(self.basis.clone(), curves);
-        let mut seen = self.seen.clone();
-        for curve in &mut seen {
-            curve.resize(basis.len(), 0.0);
-        }
-        Some((ObserverSpace::of(seen)?, curves.each_ref().map(|curve| coordinates(curve, &basis))))
+        // Whole registers: sums of their rests would take as long.
+        let size = basis.len().next_multiple_of(8);
+        let filled = |mut of: Vec<f64>| {
+            of.resize(size, 0.0);
+            of
+        };
+        let seen = ObserverSpace::of(self.seen.clone().map(filled))?;
+        Some((seen, curves.each_ref().map(|curve| filled(coordinates(curve, &basis)))))
     }
 }
 
@@ -213,7 +219,7 @@ impl<'a> Perturbed<'a> {
         let rendering = ask.ask(&of.rendering);
         let rendering = (*rendering).as_ref().ok()?;
         let index = ask.ask(&IndexSamplesQuery(of.index.clone()));
-        let curves = [0, 1, 2].map(|c: usize| (0..COUNT).map(|i| sensor.at_index(i)[c] / peaks[c]).collect());
+        let curves = [0, 1, 2].map(|c: usize| sensor.on_grid(c).iter().map(|value| value / peaks[c]).collect());
         let mut found = Self {
             refit: None,
             conditioning: rendering.conditioning,
@@ -255,8 +261,12 @@ impl<'a> Perturbed<'a> {
     }
 
     pub(super) fn values(&self, deviation: &Deviation) -> Vec<Result<f64, WhyNot>> {
-        let shifts = self.stimuli.of_sites.of(deviation);
-        let raw: Vec<DVec3> = self.raw.iter().zip(shifts).map(|(own, shift)| *own + self.peaks * shift).collect();
+        let mut raw = self.raw.clone();
+        for (raw, [red, green, blue]) in raw.chunks_mut(LANES).zip(self.stimuli.of_sites.of(deviation)) {
+            for (lane, raw) in raw.iter_mut().enumerate() {
+                *raw += self.peaks * DVec3::new(red[lane], green[lane], blue[lane]);
+            }
+        }
         self.metrics(&raw, || self.space(deviation))
     }
 
@@ -284,7 +294,7 @@ impl<'a> Perturbed<'a> {
         let samples = LazyCell::new(|| self.index_samples(raw));
         let patches = &raw[self.stimuli.patches.clone()];
         let evidence = Evidence {
-            colors: part(|| rendering().map(|shown| patches.iter().map(|raw| unseen(shown, *raw)).collect())),
+            colors: part(|| rendering().map(|shown| Seen::all(shown, patches))),
             locus: part(|| self.locus(rendering()?, raw[BLACKBODY])),
             space: part(|| space().ok_or(WhyNot::Dependent)),
             index: [0, 1].map(|by| {
@@ -337,9 +347,9 @@ impl<'a> Perturbed<'a> {
 
     fn space(&self, deviation: &Deviation) -> Option<SpaceQuality> {
         let (observer, mut curves) = self.space.as_ref().map(|(observer, curves)| (observer, curves.clone()))?;
-        for (curve, deviation) in curves.iter_mut().zip(deviation) {
-            for (site, by) in self.stimuli.sites.iter().zip(deviation) {
-                curve.iter_mut().zip(site).for_each(|(value, site)| *value += by * site);
+        for (block, shifts) in self.stimuli.sites.of(deviation).enumerate() {
+            for (curve, shift) in curves.iter_mut().zip(shifts) {
+                curve.iter_mut().skip(block * LANES).zip(shift).for_each(|(value, by)| *value += by);
             }
         }
         observer.quality(&curves)

@@ -3,8 +3,10 @@
 use super::differences::{DifferenceConditions, Statistic};
 use super::evidence::Evidence;
 use super::value::{MetricSet, MetricUncertainty, MetricValue, WhyNot};
+use chromascope_color::camera::RenderingError;
 use chromascope_color::colorimetry::Metric;
 use chromascope_color::units::eq_by;
+use rayon::prelude::*;
 
 /// Part of the table that a metric belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -245,7 +247,10 @@ const SINGLE: [CameraMetric; 17] = [
         column: "condition_number",
         label: "Condition number of matrix ∘ balance",
         symbol: "cond",
-        evaluate: |evidence| evidence.scale.and(Ok((*evidence.noise)?.condition)),
+        evaluate: |evidence| {
+            evidence.scale?;
+            (*evidence.noise)?.condition().ok_or(WhyNot::Rendering(RenderingError::NoWhite))
+        },
         ..NOISE
     },
 ];
@@ -370,7 +375,7 @@ impl Difference {
 
     fn of(a: (f64, Option<MetricUncertainty>), b: (f64, Option<MetricUncertainty>)) -> Self {
         let known = || [a.1, b.1].into_iter().flatten();
-        let standard = known().map(|u| u.standard).reduce(f64::hypot);
+        let standard = known().map(|u| u.standard * u.standard).reduce(|a, b| a + b).map(f64::sqrt);
         Self { value: a.0 - b.0, standard, coverage: known().map(|u| u.coverage).fold(0.0, f64::max) }
     }
 
@@ -397,5 +402,5 @@ pub fn rank_ranges(better: Better, values: &[MetricValue]) -> Vec<Option<[usize;
             [first + usize::from(other.0 < own.0), last - usize::from(other.0 > own.0)]
         })
     };
-    merits.iter().map(|own| own.map(range)).collect()
+    merits.par_iter().map(|own| own.map(range)).collect()
 }

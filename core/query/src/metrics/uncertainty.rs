@@ -256,7 +256,7 @@ fn other_response(sensor: &Sensor) -> Option<Sensor> {
 /// A deviation that leaves no curve negative.
 fn clipped(draw: &Deviation, own: &Deviation) -> Deviation {
     let mut kept = *draw;
-    kept.iter_mut().flatten().zip(own.iter().flatten()).for_each(|(value, own)| *value = value.max(-own));
+    kept.as_flattened_mut().iter_mut().zip(own.as_flattened()).for_each(|(value, own)| *value = value.max(-own));
     kept
 }
 
