@@ -113,9 +113,6 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
             header.take_comment(number, key, value);
             continue;
         }
-        if let Some(unit) = comment(line).and_then(first_unit).filter(|_| header.x_unit.is_none()) {
-            header.x_unit = Some((number, XUnit::Wavelength(unit)));
-        }
         if let Some((key, value)) = braced(line) {
             if key == "Units, Wavelength Units" && layout.width == GLAZING.len() {
                 named_above = Some((number, GLAZING.map(str::to_owned).to_vec()));
@@ -156,9 +153,6 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
             continue;
         }
         header.take_prose(number, body.unwrap_or(line));
-        if let Some(name) = stated_name(line).filter(|_| header.comment("title").is_none()) {
-            header.note(number, "title", name);
-        }
         near.push((number, line));
         if near.len() > NEAR {
             near.remove(0);
@@ -335,6 +329,12 @@ impl Header {
         let setting = |unit: &XUnit| *unit == XUnit::Wavelength(WavelengthUnit::Wavenumber) && !text.contains("cm");
         if let Some(unit) = header_terms::x_unit_in_prose(text).filter(|unit| !(setting(unit) && number())) {
             self.x_unit = Some((line, unit));
+        }
+        if let Some(unit) = first_unit(text).filter(|_| self.x_unit.is_none()) {
+            self.x_unit = Some((line, XUnit::Wavelength(unit)));
+        }
+        if let Some(name) = stated_name(text).filter(|_| self.comment("title").is_none()) {
+            self.note(line, "title", name);
         }
         self.take_coverage(line, text);
         self.medium = header_terms::medium(text).map(|medium| (line, medium)).or(self.medium);

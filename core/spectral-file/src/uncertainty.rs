@@ -143,10 +143,6 @@ fn settle_uses(grid: &Grid, terms: &mut [Option<Term>]) -> Vec<Use> {
     let all = !covered.contains(&false);
     for index in 0..curves.len() {
         let Some(term) = &terms[index] else { continue };
-        if ["(+)", "(-)", "(−)"].iter().any(|sign| curves[index].label.ends_with(sign)) {
-            uses[index] = Use::LeftOut(SIDE);
-            continue;
-        }
         let owner = if let Use::Of(curve) = uses[index] { curve } else { index };
         uses[index] = match (uses[index], fault(&curves[index].values, &curves[owner].values)) {
             // Short words are names too, such as SE of a direction: they need a table in which every curve has one.
@@ -158,6 +154,7 @@ fn settle_uses(grid: &Grid, terms: &mut [Option<Term>]) -> Vec<Use> {
                     Use::Curve
                 }
             }
+            _ if is_one_sided(&curves[index].label) => Use::LeftOut(SIDE),
             (Use::Of(_), Some(NEGATIVE)) if !term.clear => Use::Curve,
             (Use::Of(_) | Use::LeftOut(_), Some(why)) => Use::LeftOut(why),
             (Use::Curve, _) if term.clear => Use::LeftOut(NO_CURVE),
@@ -171,8 +168,7 @@ fn settle_uses(grid: &Grid, terms: &mut [Option<Term>]) -> Vec<Use> {
         let Use::Of(curve) = uses[index] else { continue };
         // Of the same in percent and in the unit of the values, the latter.
         let kind = |at: usize| terms[at].as_ref().map(|term| (term.kind, !(term.relative || term.percent)));
-        let other = best.insert(curve, index);
-        if let Some(other) = other {
+        if let Some(other) = best.insert(curve, index) {
             let worse = if kind(index) > kind(other) { other } else { index };
             best.insert(curve, if worse == index { other } else { index });
             uses[worse] = Use::LeftOut(SECOND);
@@ -213,6 +209,11 @@ fn place_unnamed(curves: &[RawCurve], keys: &[String], terms: &[Option<Term>], u
         }
         start = next;
     }
+}
+
+/// Returns whether a name is that of an error up or down alone: `error of R (+)`.
+fn is_one_sided(label: &str) -> bool {
+    ["(+)", "(-)", "(−)"].iter().any(|sign| label.ends_with(sign))
 }
 
 /// Reason why numbers are no uncertainties.

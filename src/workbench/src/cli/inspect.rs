@@ -342,7 +342,8 @@ fn question(table: &SpectralFile) -> Option<String> {
     if role.certainty == Certainty::Open {
         let large = table.curves.iter().flat_map(|curve| &curve.values).any(|value| *value > LARGEST_FRACTION);
         let remedy = if large {
-            "add --role reflectance (or transmittance) --values percent, --role illuminant, --role camera or --role unknown"
+            "add --role reflectance --values percent, --role transmittance --values percent, --role illuminant, --role camera \
+             or --role unknown"
         } else {
             "add --role reflectance, --role transmittance, --role illuminant, --role camera or --role unknown"
         };
