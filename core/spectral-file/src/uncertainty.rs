@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::decision::{Certainty, Decided, Decision, Effect, Role, Values};
 use crate::grid::{Grid, RawCurve, Stated, StatedScale, retain};
 use crate::header_terms;
-use crate::uncertainty_terms::{self, Kind, Term};
+use crate::uncertainty_terms::{self, Kind, Sense, Term};
 use crate::warning::Warning;
 use crate::watch::Log;
 
@@ -82,7 +82,8 @@ fn of_difference(curves: &[RawCurve], index: usize) -> Option<Term> {
     };
     let of = curves[..index].iter().rev().take(NEAR).find(is_its).filter(|_| own.named && !name.is_empty())?;
     let about = uncertainty_terms::without_mean(&uncertainty_terms::key(&of.name));
-    let term = Term { kind: Kind::Unsaid, clear: false, of: about, coverage: None, ..uncertainty_terms::expanded(1.0) };
+    let term =
+        Term { kind: Kind::Unsaid, sense: Sense::Open, of: about, coverage: None, ..uncertainty_terms::expanded(1.0) };
     let sound = fault(&own.values, &of.values).is_none() && !is_too_large(&of.values, &own.values);
     Some(term).filter(|term| sound && !other_unit(of, own, term))
 }
@@ -122,7 +123,7 @@ fn settle_uses(grid: &Grid, terms: &mut [Option<Term>]) -> Vec<Use> {
             };
             match named {
                 Some(&curve) => uses[index] = Use::Of(curve),
-                None if term.clear || is_about_last() => {}
+                None if term.sense == Sense::Clear || is_about_last() => {}
                 None => terms[index] = None,
             }
         }
@@ -146,18 +147,21 @@ fn settle_uses(grid: &Grid, terms: &mut [Option<Term>]) -> Vec<Use> {
         let owner = if let Use::Of(curve) = uses[index] { curve } else { index };
         uses[index] = match (uses[index], fault(&curves[index].values, &curves[owner].values)) {
             // Short words are names too, such as SE of a direction: they need a table in which every curve has one.
-            (Use::Of(curve), why) if !term.clear && !names(term, &keys[curve]) => {
+            (Use::Of(curve), why) if term.sense < Sense::Clear && !names(term, &keys[curve]) => {
                 let mean = uncertainty_terms::names_mean(&keys[curve]);
-                if (all || mean || term.usual) && fits(curve, index) && (term.usual || why != Some(NEGATIVE)) {
+                if (all || mean || term.sense == Sense::Usual)
+                    && fits(curve, index)
+                    && (term.sense == Sense::Usual || why != Some(NEGATIVE))
+                {
                     why.map_or(Use::Of(curve), Use::LeftOut)
                 } else {
                     Use::Curve
                 }
             }
             _ if is_one_sided(&curves[index].label) => Use::LeftOut(SIDE),
-            (Use::Of(_), Some(NEGATIVE)) if !term.clear => Use::Curve,
+            (Use::Of(_), Some(NEGATIVE)) if term.sense < Sense::Clear => Use::Curve,
             (Use::Of(_) | Use::LeftOut(_), Some(why)) => Use::LeftOut(why),
-            (Use::Curve, _) if term.clear => Use::LeftOut(NO_CURVE),
+            (Use::Curve, _) if term.sense == Sense::Clear => Use::LeftOut(NO_CURVE),
             (Use::Of(curve), None) if other_unit(&curves[curve], &curves[index], term) => Use::LeftOut(UNIT),
             (other, _) => other,
         };
@@ -196,7 +200,9 @@ fn place_unnamed(curves: &[RawCurve], keys: &[String], terms: &[Option<Term>], u
         let end = (start..curves.len()).find(|at| !is_curve(*at)).unwrap_or(curves.len());
         let next = (end..curves.len()).find(|at| is_curve(*at)).unwrap_or(curves.len());
         let open: Vec<usize> = (end..next).filter(|at| is_open(*at, uses)).collect();
-        let kind = |at: &usize| terms[*at].as_ref().map(|term| (term.kind, term.clear, term.relative || term.percent));
+        let kind = |at: &usize| {
+            terms[*at].as_ref().map(|term| (term.kind, term.sense == Sense::Clear, term.relative || term.percent))
+        };
         let alike = open.iter().all(|at| kind(at) == kind(&open[0]));
         let several = open.len() > 1 && alike;
         let is_meant = |at: &usize| end - start == 1 || uncertainty_terms::names_mean(&keys[*at]);

@@ -18,14 +18,22 @@ pub(super) enum Kind {
     Expanded,
 }
 
+/// How surely words mean an uncertainty.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Sense {
+    /// They may be a name: `SE` is a direction, too.
+    Open,
+    /// Behind a curve they mean nothing else: no samples are called so.
+    Usual,
+    /// They mean nothing else.
+    Clear,
+}
+
 /// What a column's header says of an uncertainty.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Term {
     pub(super) kind: Kind,
-    /// True if the words mean nothing else; `SE` may be a direction or a sample.
-    pub(super) clear: bool,
-    /// True if behind a curve they mean nothing else: no samples are called so.
-    pub(super) usual: bool,
+    pub(super) sense: Sense,
     /// The words about the curve it belongs to, as [`key`] has them; empty if there are none.
     pub(super) of: String,
     /// Coverage factor, if it is named.
@@ -39,7 +47,7 @@ pub(super) struct Term {
 /// What a head of the program's own says: that numbers are U = k u.
 pub(super) fn expanded(coverage: f64) -> Term {
     let (kind, coverage) = (Kind::Expanded, Some(coverage));
-    Term { kind, clear: true, usual: true, of: String::new(), coverage, level: None, relative: false, percent: false }
+    Term { kind, sense: Sense::Clear, of: String::new(), coverage, level: None, relative: false, percent: false }
 }
 
 /// Words for uncertainties with their kind, and whether they mean nothing else.
@@ -139,7 +147,12 @@ pub(super) fn term(name: &str, label: &str) -> Option<Term> {
     let clear = clear || percent && kind == Kind::Unsaid;
     // Sigma makes cameras.
     let usual = of.is_empty() && (is_one(word, "err|error|errors|error bar|unc|std|σ|±") || name.starts_with("sigma"));
-    Some(Term { kind, clear, usual, of, coverage: coverage(&text), level, relative, percent })
+    let sense = match (clear, usual) {
+        (true, _) => Sense::Clear,
+        (false, true) => Sense::Usual,
+        (false, false) => Sense::Open,
+    };
+    Some(Term { kind, sense, of, coverage: coverage(&text), level, relative, percent })
 }
 
 /// The words of a name in lower case, those joined by capitals or figures apart, without what is said of a coverage factor.

@@ -6,7 +6,8 @@ use crate::header_terms::{self, Channel, XUnit};
 use crate::report::Curve;
 use crate::scale::values::{Evidence, LARGEST_PERCENT, Looks};
 use crate::text::{excerpt, has_word};
-use crate::{quantity, uncertainty_terms, unit_text};
+use crate::uncertainty_terms::{self, Sense};
+use crate::{quantity, unit_text};
 
 /// Counts of detectors are larger, irradiances and radiances in the usual units smaller.
 const COUNTS: f64 = 1000.0;
@@ -82,7 +83,8 @@ fn none_of_the_roles(grid: &Grid) -> Option<String> {
         return Some(format!("By line {line}: {}", chromascope_text::lowered(why)));
     }
     let is_term = |curve: &RawCurve| {
-        uncertainty_terms::term(unit_text::without_unit(&curve.label), &curve.label).is_some_and(|term| term.clear)
+        uncertainty_terms::term(unit_text::without_unit(&curve.label), &curve.label)
+            .is_some_and(|term| term.sense == Sense::Clear)
     };
     let alone = grid.curves.iter().all(|curve| curve.uncertainty.is_none()) && grid.header.own.is_empty();
     let who = match clues.uncertainties {
