@@ -46,7 +46,8 @@ pub(super) fn take(source: Source<'_>, grid: &mut Grid) {
     let folders: Vec<&str> = source.path.rsplit(['/', '\\']).take(5).collect();
     // Raman is a person's name, too.
     let is_user = |at: usize| folders.get(at + 1).is_some_and(|above| is_one(&above.to_lowercase(), "home|users"));
-    let names_raman = |at: usize| !is_user(at) && words(folders[at]).iter().any(|word| word == "raman");
+    let names = |at: usize, list: &str| words(folders[at]).iter().any(|word| is_one(word, list));
+    let names_raman = |at: usize| !is_user(at) && names(at, "raman") && !names(at, "nir|ir|ftir|uv|vis");
     let is_raman = (0..folders.len().min(4)).any(names_raman);
     let header = &mut grid.header;
     if is_raman

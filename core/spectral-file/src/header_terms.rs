@@ -531,7 +531,7 @@ pub(super) fn names_time(text: &str) -> bool {
 
 /// Returns whether a column's header names a quantity over which no spectrum runs: a time, a temperature, an angle, a place.
 pub(super) fn names_other_axis(text: &str) -> bool {
-    const QUANTITIES: &str = "time|seconds|minutes|hours|elapsed|temperature|temp|theta|2theta|angle|lon|longitude|lat|\
+    const QUANTITIES: &str = "concentration|concentracion|concentración|conc|time|seconds|minutes|hours|elapsed|temperature|temp|theta|2theta|angle|lon|longitude|lat|\
         latitude|current|voltage|date|year|month|day|hour";
     const UNITS: &str = "s|sec|ms|msec|min|h|k|°c|°|deg|degree|degrees|ma|mg/kg";
     let text = lower(text);

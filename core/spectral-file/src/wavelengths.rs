@@ -102,7 +102,7 @@ fn no_other_axis(grid: &Grid) -> Result<(), ReadError> {
     let Some(column) = grid.wavelength_column.map(|column| column.saturating_sub(1)) else { return Ok(()) };
     let names = grid.header.names.get(column..).unwrap_or_default();
     // Of colors, also behind the names or numbers of their samples.
-    let samples = names.first().is_some_and(|name| !header_terms::names_wavelengths(name));
+    let samples = names.first().is_some_and(|name| !name.is_empty() && !header_terms::names_wavelengths(name));
     let colors = |letters: [&str; 3]| names.windows(3).any(|names| names.iter().zip(letters).all(|(a, b)| a == b));
     let tristimulus = samples && [["X", "Y", "Z"], ["L*", "a*", "b*"], ["L", "a", "b"]].into_iter().any(colors);
     // A line such as `temperature,32.4` is a setting.

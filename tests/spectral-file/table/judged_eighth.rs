@@ -195,3 +195,31 @@ fn decibels_alone_are_no_light() {
     let table = ok(&format!("Wavelength (nm),Rx (dB)\n{}", rows(",").replace(",0.", ",-1.")));
     assert_eq!((table.role.value, table.role.certainty), (Role::Unknown, Certainty::Open));
 }
+
+#[test]
+fn what_a_tenth_judge_found() {
+    let table = ok(&format!("lambda,abs_bg\n{}", rows(",")));
+    assert_eq!((table.reading.values.value, table.reading.values.certainty), (Values::Absorbance, Certainty::Guess));
+    assert_eq!(names(&ok(&format!(",X,Y,Z\n{}", rows(",").replace('\n', ",0.1,0.2\n")))), ["X", "Y", "Z"]);
+    let tidy = (40..60).map(|nm| format!("1,dorsal,{nm}0,4.{nm}\n")).collect::<Vec<_>>().concat();
+    assert_eq!(ok(&format!("Sample,Color,wl,spectra\n{tidy}")).curves[0].values.len(), 20);
+    assert!(matches!(error("Concentracion,Absorbancia\n0.1,0.05\n0.2,0.1\n0.3,0.15\n"), ReadError::NoWavelengths(1)));
+    let text = "octane,900,902,904,906,908\n85.3,0.1,0.2,0.3,0.4,0.5\n";
+    let in_folder = |path| read(Source { path, ..Source::from(text) }, &ReadOptions::default());
+    assert!(in_folder("NIR-and-Raman/gasoline.csv").is_ok() && in_folder("Raman/gasoline.csv").is_err());
+}
+
+#[test]
+fn noise_and_energies_and_even_wave_numbers() {
+    let rows =
+        |number: &dyn Fn(i32) -> f64| (0..40).map(|at| format!("{},1.5\n", number(at))).collect::<Vec<_>>().concat();
+    let energies = error(&rows(&|at| 1240.0 / f64::from(700 - 10 * at)));
+    assert!(matches!(energies, ReadError::AmbiguousEnergies { .. }), "{energies}");
+    let even = ok(&format!("a,b\n{}", rows(&|at| 400.25 + 96.43 * f64::from(at))));
+    assert_eq!(even.reading.wavelength_unit.value, WavelengthUnit::Wavenumber);
+    let noise = (40..60).map(|nm| format!("{nm}0,0.{nm},0.01\n")).collect::<Vec<_>>().concat();
+    assert_eq!(names(&ok(&format!("wavelength,flux,noise\n{noise}"))).len(), 1);
+    let times =
+        "Date,2023/10/06,2023/10/06\nTime,09:00,09:02\nWavelength(nm),Irradiance(W/m2/um),Irradiance(W/m2/um)\n";
+    assert_eq!(names(&ok(&format!("{times}{noise}"))), ["2023/10/06 09:00", "2023/10/06 09:02"]);
+}

@@ -179,7 +179,7 @@ impl Plan {
         };
         let numbers = (0..self.names.len()).filter(|column| *column != self.axis && !self.keys.contains(column));
         let (taken, left): (Vec<usize>, Vec<usize>) = numbers.partition(is_value);
-        let single = self.is_named() && count < 2;
+        let single = self.is_named() && count < 2 && self.keys.len() < 2;
         if single || taken.is_empty() || rows.lines.len() < FEWEST_ROWS * count || count > MAX_CURVES {
             return Ok(None);
         }
