@@ -179,7 +179,10 @@ impl Plan {
         };
         let numbers = (0..self.names.len()).filter(|column| *column != self.axis && !self.keys.contains(column));
         let (taken, left): (Vec<usize>, Vec<usize>) = numbers.partition(is_value);
-        let single = self.is_named() && count < 2 && self.keys.len() < 2;
+        // With a number beside texts before its wavelengths a table of one sample is none of columns.
+        let is_number = |key: &usize| matches!(self.dialect.parse(rows.text(*key, 0)), Cell::Number(_));
+        let few = self.keys.len() < 2 || !self.keys.iter().any(is_number);
+        let single = self.is_named() && count < 2 && few;
         if single || taken.is_empty() || rows.lines.len() < FEWEST_ROWS * count || count > MAX_CURVES {
             return Ok(None);
         }
