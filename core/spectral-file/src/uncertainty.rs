@@ -166,9 +166,15 @@ fn settle_uses(grid: &Grid, terms: &mut [Option<Term>]) -> Vec<Use> {
             (other, _) => other,
         };
     }
-    // The most telling of several.
+    keep_best(terms, &mut uses);
+    // Nothing is left out for words that may mean something else, where no curve would be left.
+    if uses.iter().all(|place| *place != Use::Curve) { vec![Use::Curve; curves.len()] } else { uses }
+}
+
+/// Leaves each curve the most telling of several uncertainties.
+fn keep_best(terms: &[Option<Term>], uses: &mut [Use]) {
     let mut best: BTreeMap<usize, usize> = BTreeMap::new();
-    for index in 0..curves.len() {
+    for index in 0..uses.len() {
         let Use::Of(curve) = uses[index] else { continue };
         // Of the same in percent and in the unit of the values, the latter.
         let kind = |at: usize| terms[at].as_ref().map(|term| (term.kind, !(term.relative || term.percent)));
@@ -178,8 +184,6 @@ fn settle_uses(grid: &Grid, terms: &mut [Option<Term>]) -> Vec<Use> {
             uses[worse] = Use::LeftOut(SECOND);
         }
     }
-    // Nothing is left out for words that may mean something else, where no curve would be left.
-    if uses.iter().all(|place| *place != Use::Curve) { vec![Use::Curve; curves.len()] } else { uses }
 }
 
 /// Returns whether the words about a curve are those of one with a label and words of its own: its quantity, or its last word or sign.
