@@ -12,6 +12,7 @@ mod judged_columns;
 mod judged_eighth;
 mod judged_fourth;
 mod judged_more;
+mod judged_ninth;
 mod judged_seventh;
 mod judged_sixth;
 mod judged_third;
@@ -41,6 +42,11 @@ pub(crate) fn error(text: &str) -> ReadError {
         Err(error) => error,
         Ok(table) => panic!("read as {table:?}"),
     }
+}
+
+/// Rows of a wavelength and a value.
+pub(crate) fn rows(separator: &str) -> String {
+    (40..60).map(|nm| format!("{nm}0{separator}0.{nm}\n")).collect::<Vec<_>>().concat()
 }
 
 fn samples(curve: &Curve) -> Vec<(f64, f64)> {

@@ -11,6 +11,9 @@ use crate::units::{RANGE_NM, plausible};
 /// The fewest bands that are taken for a spectrum.
 pub(super) const FEWEST: usize = 5;
 
+/// The fewest before words that say nothing of them: numbers may count samples or their settings, too.
+const FEWEST_SUFFIXED: usize = 30;
+
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Band<'a> {
     /// Text before the wavelength, and text behind it and its unit.
@@ -24,6 +27,12 @@ impl Band<'_> {
     /// Returns whether its name says that the number is a wavelength.
     fn is_known(&self) -> bool {
         self.unit.is_some() || is_band_prefix(self.prefix)
+    }
+
+    /// Returns whether the name begins with the number, and a word is set apart from it: `400.386_SP1`.
+    fn is_apart(&self) -> bool {
+        let word = self.suffix.strip_prefix('_').filter(|_| self.prefix.is_empty());
+        word.is_some_and(|word| word.starts_with(char::is_alphabetic))
     }
 
     fn goes_with(&self, other: &Self) -> bool {
@@ -61,8 +70,8 @@ fn band(dialect: Dialect, name: &str) -> Option<Band<'_>> {
     if name.len() > LONGEST || !name.contains(digit) {
         return None;
     }
-    let mut found: Option<Band<'_>> = None;
-    let mut from = 0;
+    let mut found: Option<Band<'_>> = counted(name);
+    let mut from = if found.is_some() { name.len() } else { 0 };
     while let Some(start) = name[from..].find(digit).map(|at| from + at) {
         let in_number = |c: char| c.is_ascii_digit() || matches!(c, '.' | ',');
         let end = name[start..].find(|c| !in_number(c)).map_or(name.len(), |at| start + at);
@@ -76,8 +85,8 @@ fn band(dialect: Dialect, name: &str) -> Option<Band<'_>> {
         let numbers = || is_one(&bare, "wn|wavenumber").then_some(WavelengthUnit::Wavenumber);
         let before = bare.ends_with("nm").then_some(WavelengthUnit::Nanometer).or_else(numbers);
         let one = Band { prefix, suffix, wavelength, unit: unit.or(before) };
-        // A number with a unit, else the last.
-        if found.is_none_or(|found| found.unit.is_none()) {
+        // A number with a unit, or before `_SP1`, else the last.
+        if found.is_none_or(|found| found.unit.is_none() && !found.is_apart()) {
             found = Some(one);
         }
     }
@@ -85,7 +94,14 @@ fn band(dialect: Dialect, name: &str) -> Option<Band<'_>> {
     let word = |band: &Band<'_>| band.prefix.starts_with(char::is_alphabetic) && !band.prefix.contains(digit);
     // `400_refl`
     let measured = |band: &Band<'_>| band.prefix.is_empty() && header_terms::role_of_bands(band.suffix).is_some();
-    found.filter(|band| band.is_known() || band.suffix.is_empty() && word(band) || measured(band))
+    found.filter(|band| band.is_known() || band.suffix.is_empty() && word(band) || measured(band) || band.is_apart())
+}
+
+/// A band that SCiO numbers from its first wavelength, in nanometers: `spectrum_3 + 740`.
+fn counted(name: &str) -> Option<Band<'_>> {
+    let (index, first) = name.strip_prefix("spectrum_")?.split_once(" + ")?;
+    let wavelength = f64::from(index.parse::<u16>().ok()?) + f64::from(first.parse::<u16>().ok()?);
+    Some(Band { prefix: "spectrum", suffix: "", wavelength, unit: Some(WavelengthUnit::Nanometer) })
 }
 
 /// Length of the exponent that a text begins with, such as `e+03`.
@@ -160,9 +176,11 @@ pub(super) fn groups(dialect: Dialect, line: &str) -> Vec<Group> {
             }
             Step::Wrong => wrong += 1,
             Step::Anew => {
-                // Numbers that go up and down are values, unless a second spectrum begins where the first did.
+                // Numbers that go up and down are values, unless a second spectrum begins where the first did, or one number
+                // stands behind many.
                 let plain = band.prefix.is_empty() && band.suffix.is_empty();
-                if plain && beside && begun != Some(band.wavelength) {
+                let lone = index + 1 == bands.len() && run.len() > FEWEST_SUFFIXED;
+                if plain && !lone && beside && begun != Some(band.wavelength) {
                     return Vec::new();
                 }
                 all.extend(group(&run, wrong, stated));
@@ -246,7 +264,14 @@ fn group(run: &[(usize, Band<'_>)], wrong: usize, stated: Option<WavelengthUnit>
         let (a, b) = (unit.nanometers(min), unit.nanometers(max));
         a.max(b) > *RANGE_NM.start() && a.min(b) < *RANGE_NM.end()
     });
+    let many = run.len() > FEWEST_SUFFIXED && first.prefix.is_empty() && first.suffix.is_empty();
+    let mostly = || SOUND * values().filter(|nm| !RANGE_NM.contains(nm)).count() < run.len();
+    let in_range = in_range || many && wrong == 0 && min > 0.0 && mostly();
     if !in_range && !plausible(min, max, values().any(|w| w.fract() != 0.0)) || run.len() < SOUND * wrong {
+        return None;
+    }
+    let said = || first.unit.is_some() || header_terms::role_of_bands(first.suffix).is_some();
+    if first.prefix.is_empty() && !first.suffix.is_empty() && run.len() < FEWEST_SUFFIXED && !said() {
         return None;
     }
     // What a letter may count as well, such as patches or bands, counts by ones.

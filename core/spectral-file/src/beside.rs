@@ -40,7 +40,13 @@ pub(super) fn take(source: Source<'_>, grid: &mut Grid) {
     };
     grid.beside = grid.beside.take().or_else(|| of_path(source.path, names_other).filter(fits));
     let stem = file_stem(source.path).map(words).unwrap_or_default();
+    let folder = source.path.rsplit(['/', '\\']).nth(1).map(words).unwrap_or_default();
+    let says_absorbance = |words: &[String]| words.iter().any(|word| word.starts_with("absorban"));
+    let is_absorbance =
+        says_absorbance(&stem) || says_absorbance(&folder) && stem.iter().all(|word| role_of_word(word).is_none());
+    let is_absorbance = is_absorbance && grid.beside.as_ref().is_some_and(|beside| beside.value == Role::Transmittance);
     let clues = &mut grid.header.clues;
+    clues.absorbance = clues.absorbance.or(is_absorbance.then_some(0));
     clues.uncertainties = clues.uncertainties.or(uncertainty_terms::is_title(&stem.join(" ")).then_some(0));
     // Axes of Raman spectra are shifts, which number no wavelengths.
     let folders: Vec<&str> = source.path.rsplit(['/', '\\']).take(5).collect();
@@ -144,7 +150,7 @@ fn role_of_word(word: &str) -> Option<Role> {
              incandescent|fluorescent|emission",
         ),
         (Role::Reflectance, "reflec|remission|albedo", "refl|rfl|colorchecker|colourchecker|munsell"),
-        (Role::Transmittance, "transmi", "filter|filters|trans|gel|gels|wratten"),
+        (Role::Transmittance, "transmi|absorban", "filter|filters|trans|gel|gels|wratten"),
         (
             Role::Camera,
             "sensitiv|responsiv|quantum|efficien|camera",

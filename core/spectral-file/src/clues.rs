@@ -16,7 +16,7 @@ pub(super) struct Clues {
     pub(super) ratios_in_percent: Option<(usize, &'static str)>,
     pub(super) role: Option<(usize, Role)>,
     pub(super) values: Option<(usize, Values)>,
-    /// A title or a name of data mentions absorbances.
+    /// A title or a name of data mentions absorbances; line 0 stands for the name of the file or its folder.
     pub(super) absorbance: Option<usize>,
     /// A title or a line says that the values are uncertainties; line 0 stands for the name of the file.
     pub(super) uncertainties: Option<usize>,

@@ -161,6 +161,8 @@ choices! {
         Xml = "XML";
         /// JSON, with or without comments.
         Json = "JSON";
+        /// Named, but not read.
+        Yaml = "YAML";
         Jcamp = "JCAMP-DX";
         /// CGATS and its relatives, as Argyll and X-Rite write them.
         Cgats = "CGATS";

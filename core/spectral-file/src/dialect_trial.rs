@@ -198,6 +198,12 @@ impl Across {
         std::iter::repeat_n("", missing.unsigned_abs()).chain(heads.skip(extra.unsigned_abs())).collect()
     }
 
+    /// Returns whether more numbers than rows stand behind an empty cell and the head of another column, as behind an index and a class:
+    /// the numbers that rows begin with are no wavelengths then.
+    pub(super) fn is_indexed(&self) -> bool {
+        self.blank > 0 && self.group().start > self.blank && self.group().count() > self.rows && self.rows > 0
+    }
+
     pub(super) fn group(&self) -> &Group {
         self.groups.get(self.part).unwrap_or(&self.groups[0])
     }

@@ -144,6 +144,9 @@ fn family(text: &str) -> Option<Family> {
     if begins_object(start) || list || commented_json(start) {
         return Some(Family::Json);
     }
+    if is_yaml(start) {
+        return Some(Family::Yaml);
+    }
     let head = &text[..floor(text)];
     let cgats = head.contains(CGATS_FORMAT) && head.lines().any(|line| line.trim() == CGATS_FORMAT);
     cgats.then_some(Family::Cgats)
@@ -155,6 +158,15 @@ fn begins_object(start: &str) -> bool {
         let rest = rest.trim_start();
         rest.is_empty() || rest.starts_with(['"', '\'', '}', '/'])
     })
+}
+
+/// Returns whether a text begins with a list of numbers as YAML writes it: `wavelengths: [300, 301, …`.
+fn is_yaml(start: &str) -> bool {
+    let start = start.strip_prefix("---").unwrap_or(start).trim_start();
+    let line = start.lines().next().unwrap_or_default();
+    let is_key = |key: &str| key.bytes().all(|byte| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'-'));
+    let list = line.split_once(": [").filter(|(key, _)| is_key(key)).and_then(|(_, list)| list.split_once(", "));
+    list.is_some_and(|(first, _)| first.trim().parse::<f64>().is_ok())
 }
 
 fn commented_json(start: &str) -> bool {

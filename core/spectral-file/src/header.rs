@@ -134,6 +134,16 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
             header.note(number, "title", name.trim_end_matches(".txt"));
         }
         // The database's spectra are over Raman shifts, wave numbers of the infrared or angles.
+        // Spextool's spectra of NASA's Infrared Telescope Facility name no columns.
+        if text.contains("Xspextool") && named_above.is_none() && (3..=SPEXTOOL.len()).contains(&layout.width) {
+            named_above = Some((number, SPEXTOOL[..layout.width].iter().map(|&name| name.to_owned()).collect()));
+        }
+        // CRAIC's program writes the sample, and what was measured, above its settings.
+        if text.starts_with("SciMode:")
+            && let [(_, sample), _] = near.as_slice()
+        {
+            header.note(number, "title", sample);
+        }
         if text.contains("rruff.info") {
             header.x_unit = Some((number, XUnit::Other));
         }
@@ -184,6 +194,8 @@ fn stated_name(line: &str) -> Option<&str> {
     let is_key = is_one(&lower(bare_title(key)), KEYS);
     (is_key && is_name && value.len() <= 100 && !header_terms::is_quantity(value)).then_some(value)
 }
+
+const SPEXTOOL: [&str; 4] = ["Wavelength", "flux", "error", "flag"];
 
 /// Columns of the International Glazing Database: transmittance, and reflectances of the front and of the back.
 const GLAZING: [&str; 4] = ["Wavelength", "T", "Rf", "Rb"];

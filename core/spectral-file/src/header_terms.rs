@@ -470,9 +470,10 @@ pub(super) fn x_unit_in_prose(text: &str) -> Option<XUnit> {
         "wavelength|lambda is in|lambda\" is in|lambda in|wavenumber|wave number|x unit|xunit|x axis|xaxis|axisunit[1]";
     let text = lower(text);
     let start = WORDS.split('|').find_map(|word| text.find(word))?;
-    // In a line of names the wave numbers have a column of their own.
+    // In a line of names, wave numbers and shifts have columns of their own.
     let text = &text[start..];
-    let end = text.find("wavenumber").filter(|at| text[..*at].ends_with([',', ';', '\t']));
+    let is_name = |at: &usize| text[..*at].ends_with([',', ';', '\t']);
+    let end = ["wavenumber", "raman shift"].iter().filter_map(|other| text.find(other).filter(is_name)).min();
     x_unit(&text[..end.unwrap_or(text.len())])
 }
 

@@ -65,5 +65,7 @@ fn take_mode(line: usize, mode: &str, grid: &mut Grid) {
     };
     grid.role = quantity.role().map(|role| Decided::certain(role, &*why));
     grid.header.values = values.map(|values| (line, values)).or(grid.header.values);
-    grid.quantity = Some(Decided::certain(quantity, why));
+    // Irradiances are written so, too.
+    let decide = if mode.eq_ignore_ascii_case("RAD") { Decided::guess } else { Decided::certain };
+    grid.quantity = Some(decide(quantity, why));
 }

@@ -17,10 +17,13 @@ pub(super) const FEWEST_ROWS: usize = 3;
 const NAMES: &str = "temperature|temp|temp.|t_amb|ambient temperature|detector temperature|ccd temperature|temperatur|\
     température|temperatura|time|elapsed time|elapsed|timestamp|time stamp|date|day|hour|zeit|temps|tiempo|integration time|\
     exposure|exposure time|humidity|relative humidity|rel. humidity|imgs|noise|snr|s/n|bandwidth|bandpass|fwhm|pressure|air pressure|voltage|battery|battery voltage|\
-    altitude|latitude|longitude|calibration|theta|phase|theta device|gain";
+    altitude|latitude|longitude|calibration|theta|phase|theta device|gain|flag|flags|quality flag";
 
 /// What detectors give, recorded beside what was made of it: last words of names.
 const SIGNALS: &str = "current|photocurrent|voltage";
+
+/// What is one number of a whole spectrum, repeated in each row.
+const OF_SPECTRUM: &str = "luminance|illuminance|lux|cct|duv|cri|dominant wavelength|peak wavelength|purity";
 
 const UNITS: &str = "°c|℃|deg c|degc|°f|℉|° c|celsius|kelvin|seconds|ms|hpa|mbar|kpa|%rh|% rh|rh";
 
@@ -85,10 +88,11 @@ fn is_companion(curve: &RawCurve, made: bool) -> bool {
     let bare = name.split(['(', '[']).next().unwrap_or_default().trim().replace('_', " ");
     let signal = made && bare.rsplit(' ').next().is_some_and(|word| is_one(word, SIGNALS));
     let named = signal || is_one(&bare, NAMES) || is_one(&name, NAMES);
+    let of_all = is_one(&bare, OF_SPECTRUM) && curve.values.iter().all(|value| *value == curve.values[0]);
     let counts =
         header_terms::is_count(&bare) && !bare.contains(' ') && curve.values.len() > 2 && counts(&curve.values);
     // What names a quantity of light is a spectrum, whatever stands in brackets.
-    (named || bracketed || counts) && header_terms::role(&curve.label).is_none()
+    of_all || (named || bracketed || counts) && header_terms::role(&curve.label).is_none()
 }
 
 pub(super) fn is_empty(column: &[f64]) -> bool {
@@ -194,9 +198,13 @@ fn is_processed(curve: &RawCurve) -> bool {
     !measured && (said || curve.name.eq_ignore_ascii_case("processed"))
 }
 
+const RAW: &str =
+    "raw|dark|ref|reference|sample|scope|reference_corrected|sample_corrected|reference signal|sample signal";
+
 fn is_raw_name(name: &str) -> bool {
     let lower = name.to_lowercase();
-    is_side(&lower) || is_one(&lower, "raw|dark|ref|reference|sample|scope|reference_corrected|sample_corrected")
+    let bare = lower.trim_end_matches(" (unitless)");
+    is_side(&lower) || is_one(bare, RAW)
 }
 
 /// Returns whether a header is that of one side of a ratio, as Spectral Evolution writes: `Norm. DN (Ref.)`, `Rad. (Target)`.

@@ -285,11 +285,16 @@ fn said(grid: &Grid, role: &Decided<Role>) -> Option<Decided<Quantity>> {
     let own = |quantity: &Quantity| {
         !role.value.is_fraction() || role.certainty == Certainty::Chosen || quantity.role() != Some(Role::Illuminant)
     };
+    // ASD names columns by files, and these by what was meant to be measured.
+    let is_file = |label: &str| label.contains(".asd");
+    let meant = |quantity: &Quantity, label: &str| !is_file(label) || quantity.role() == Some(role.value);
+    let of_label =
+        |label: &str| header_terms::quantity(label).filter(|quantity| own(quantity) && meant(quantity, label));
     let labels = grid.curves.iter().map(|curve| &curve.label);
-    let mut labeled = labels.filter_map(|label| Some((header_terms::quantity(label).filter(own)?, label)));
+    let mut labeled = labels.filter_map(|label| Some((of_label(label)?, label)));
     let decide = |all: bool| if all { Decided::certain } else { Decided::guess };
     if let Some((quantity, label)) = labeled.next().filter(|(quantity, _)| fits(*quantity)) {
-        let all = labeled.count() + 1 == grid.curves.len();
+        let all = labeled.count() + 1 == grid.curves.len() && !is_file(label);
         return Some(decide(all)(quantity, format!("A column is headed “{}”", excerpt(label))));
     }
     if let Some((line, quantity)) = grid.header.quantity.filter(|(_, quantity)| fits(*quantity)) {

@@ -368,6 +368,14 @@ fn orientation(trial: &Trial) -> Decided<Orientation> {
     let rows = trial.best.rows;
     let down = trial.best.looks_like_wavelengths();
     match trial.across.as_ref().filter(|across| across.rows > 0) {
+        Some(across) if down && across.is_indexed() => Decided::guess(
+            Orientation::Across,
+            format!(
+                "Line {} holds {} numbers in order, behind the head of a column",
+                across.line,
+                across.group().count()
+            ),
+        ),
         Some(across) if !down && across.rows + 1 >= rows => {
             let why = format!("Line {} holds {} wavelengths", across.line, across.group().count());
             let decide = if across.group().known { Decided::certain } else { Decided::guess };

@@ -169,12 +169,13 @@ impl<'a> Iterator for Lines<'a> {
     }
 }
 
-/// The text of a comment line (`# …`, `;; …`, or `% …` as MATLAB and LaTeX have it), or `None`. A line that begins with a
-/// spreadsheet's error cell is no comment, and `%R` is a name.
+/// The text of a comment line (`# …`, `;; …`, `; …` as IDL has it, or `% …` as MATLAB and LaTeX have it), or `None`. A line that
+/// begins with a spreadsheet's error cell is no comment, `%R` is a name, and more semicolons separate.
 pub(super) fn comment(line: &str) -> Option<&str> {
     let line = line.trim_start();
     let marked = |mark: char| line.strip_prefix(mark).map(|rest| rest.trim_start_matches(mark));
-    if let Some(rest) = marked('%').or_else(|| marked(';').filter(|_| line.starts_with(";;"))) {
+    let alone = || !line[1..].contains([';', ',', '\t']);
+    if let Some(rest) = marked('%').or_else(|| marked(';').filter(|_| line.starts_with(";;") || alone())) {
         return (rest.is_empty() || rest.starts_with(' ')).then(|| rest.trim());
     }
     let rest = line.strip_prefix('#')?;

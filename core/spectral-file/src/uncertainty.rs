@@ -53,7 +53,15 @@ pub(super) fn take(grid: &mut Grid, log: &mut Log<'_>) {
     if terms.iter().all(Option::is_none) {
         return;
     }
+    let doubtful: Vec<usize> = (0..terms.len())
+        .filter(|at| !is_own && terms[*at].is_some() && uncertainty_terms::has_usual_word(&grid.curves[*at].name))
+        .collect();
     let uses = if is_own { own_uses(&grid.curves, &terms) } else { settle_uses(grid, &mut terms) };
+    let mut doubtful = doubtful.iter().filter(|at| uses[**at] == Use::Curve);
+    if let Some(first) = doubtful.next() {
+        let first = grid.curves[*first].description();
+        log.push(Warning::MaybeUncertainty { count: 1 + doubtful.count(), first });
+    }
     let mut marks = vec![false; grid.curves.len()];
     for (index, place) in uses.iter().enumerate() {
         match *place {
@@ -186,12 +194,14 @@ fn keep_best(terms: &[Option<Term>], uses: &mut [Use]) {
     }
 }
 
-/// Returns whether the words about a curve are those of one with a label and words of its own: its quantity, or its last word or sign.
+/// Returns whether the words about a curve are those of one with a label and words of its own: its quantity, its last word or sign, or
+/// beginnings of its words.
 fn is_about(term: &Term, label: &str, key: &str) -> bool {
     let quantity = header_terms::quantity(&term.of);
     quantity.is_some() && quantity == header_terms::quantity(label)
         || !term.of.is_empty()
             && (key.split(' ').next_back() == Some(&*term.of)
+                || term.of.split(' ').all(|part| part.len() > 1 && key.split(' ').any(|word| word.starts_with(part)))
                 || label.to_lowercase().ends_with(&format!("({})", term.of)))
 }
 

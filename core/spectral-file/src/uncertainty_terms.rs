@@ -201,6 +201,12 @@ pub(super) fn is_statistic(name: &str) -> bool {
     term(name, name).map_or_else(|| without_mean(&key(name)).is_empty(), |term| term.of.is_empty())
 }
 
+/// Returns whether a name has a word that no other name has, unlike the `SE` of a direction or the Sigma of cameras.
+pub(super) fn has_usual_word(name: &str) -> bool {
+    const WORDS: &str = "std|stdev|stddev|sd|sem|err|error|errors|unc|uncertainty";
+    key(name).split(' ').any(|word| is_one(word, WORDS))
+}
+
 /// Returns whether words of a curve's name say that it is the mean of others.
 pub(super) fn names_mean(key: &str) -> bool {
     key.split(' ').any(|word| is_one(word, MEAN))

@@ -197,6 +197,8 @@ pub enum Warning {
     SmallPercent(String),
     #[error("{named} is an uncertainty by its name, but {why}: left out. To read it as a curve, include raw columns")]
     NotUncertainty { named: String, why: &'static str },
+    #[error("{first}{} may be an uncertainty by its name, but is read as a curve: nothing says of which it would be", and_more(*.count))]
+    MaybeUncertainty { count: usize, first: String },
     #[error(
         "{named} is read as an uncertainty{how}, which nothing says: if it is not, write “relative” and “%”, or neither, into its name"
     )]

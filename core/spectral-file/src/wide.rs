@@ -44,9 +44,11 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
     rows.warn(&heads, log)?;
     header.mentioned = rows.mentioned.or(header.mentioned);
     let count = rows.curves.len();
+    // What an underscore sets apart is a word.
+    let unit = Some(&group.suffix).filter(|suffix| !suffix.starts_with('_'));
     for curve in &mut rows.curves {
         group.suffix.clone_into(&mut curve.label);
-        curve.unit = unit_text::unit_cell(&group.suffix).or_else(|| header.unit.clone());
+        curve.unit = unit.and_then(|unit| unit_text::unit_cell(unit)).or_else(|| header.unit.clone());
     }
     let specular = header_terms::says_specular(&group.prefix).then_some(Role::Reflectance);
     let role = specular.or_else(|| header_terms::role_of_bands(&group.prefix));
@@ -94,7 +96,9 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
 fn group_name(dialect: Dialect, heads: &[&str], group: &Group) -> String {
     let before =
         group.start.checked_sub(1).and_then(|at| heads.get(at)).filter(|cell| dialect.parse(cell) == Cell::Text);
+    let suffix = group.suffix.trim_start_matches('_');
     match (group.prefix.as_str(), before) {
+        ("", _) if !suffix.is_empty() => suffix.to_owned(),
         ("", Some(name)) if group.start > 1 => (*name).to_owned(),
         ("", _) => format!("columns {} to {}", group.start + 1, group.end()),
         (prefix, _) => prefix.to_owned(),
@@ -126,9 +130,11 @@ fn description(heads: &[&str], at: usize) -> String {
     }
 }
 
-/// Returns whether a cell below a head states the type or the use of its column, as Orange writes them: `continuous`, `meta`.
+/// Returns whether a cell below a head states the type or the use of its column, as Orange and SCiO write them: `continuous`, `float`.
 fn names_type(cell: &str) -> bool {
-    is_one(cell, "|c|d|s|t|i|continuous|discrete|string|text|time|class|meta|ignore")
+    const TYPES: &str =
+        "|c|d|s|t|i|continuous|discrete|string|text|time|class|meta|ignore|int|float|str|unicode|datetime|NoneType|GPS";
+    is_one(cell, TYPES)
 }
 
 /// The leading column that best names a row: one headed so, else the first.

@@ -3,12 +3,7 @@
 
 use spectral_file::{Certainty, ReadError, ReadOptions, Role, Source, Values, WavelengthUnit, read};
 
-use super::{error, names, ok};
-
-/// Rows of a wavelength and a value.
-fn rows(separator: &str) -> String {
-    (40..60).map(|nm| format!("{nm}0{separator}0.{nm}\n")).collect::<Vec<_>>().concat()
-}
+use super::{error, names, ok, rows};
 
 #[test]
 fn a_head_may_begin_with_an_empty_cell_too_many() {

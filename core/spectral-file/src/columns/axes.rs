@@ -126,10 +126,14 @@ fn runs_like_axis(header: &Header, [first, column]: [usize; 2], wavelengths: &[f
     if name.is_some() && name == header.name(first) {
         return true;
     }
+    let (shared, own) = (unit(header, first), unit(header, column));
+    // Raman shifts begin below zero.
+    if own == Some(XUnit::Other) {
+        return true;
+    }
     let mut distinct = values.to_vec();
     distinct.dedup();
     let Some((low, high)) = ends(&distinct).filter(|(low, _)| *low > 0.0) else { return false };
-    let (shared, own) = (unit(header, first), unit(header, column));
     let (from, to) = match (own.or(shared), shared) {
         (Some(XUnit::Other), _) => return true,
         (Some(XUnit::Wavelength(unit)), _) => (unit.nanometers(low), unit.nanometers(high)),

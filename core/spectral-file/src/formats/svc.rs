@@ -1,4 +1,4 @@
-//! Field spectrometers of Spectra Vista (`.sig`): `key= value` lines, then `data=` and rows of a wavelength, the radiances of the
+//! Field spectrometers of Spectra Vista, before called GER (`.sig`): `key= value` lines, then `data=` and rows of a wavelength, the radiances of the
 //! reference and of the target, and their ratio in percent. Ranges of detectors may overlap.
 
 use crate::decision::{Decided, DecimalMark, Decision, Delimiter, Quantity, Reader, Role, Values, WavelengthUnit};
@@ -16,8 +16,13 @@ impl Reader {
     pub const SVC: Self = Self::new("svc", "Spectra Vista SIG data", "Spectra Vista .sig");
 }
 
-pub(super) const FORMAT: Format =
-    Format { reader: Reader::SVC, fits: |head| head.text.trim_start().starts_with("/*** Spectra Vista"), read };
+pub(super) const FORMAT: Format = Format {
+    reader: Reader::SVC,
+    fits: |head| STARTS.iter().any(|start| head.text.trim_start().starts_with(start)),
+    read,
+};
+
+const STARTS: [&str; 2] = ["/*** Spectra Vista", "///GER SIGNATUR FILE"];
 
 /// Columns behind the wavelengths; the last is the target over the reference, in percent.
 const COLUMNS: [&str; 3] = ["Reference", "Target", "Reflectance (%)"];

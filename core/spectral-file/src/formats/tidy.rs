@@ -182,7 +182,8 @@ impl Plan {
         // With a number beside texts before its wavelengths a table of one sample is none of columns.
         let is_number = |key: &usize| matches!(self.dialect.parse(rows.text(*key, 0)), Cell::Number(_));
         let few = self.keys.len() < 2 || !self.keys.iter().any(is_number);
-        let single = self.is_named() && count < 2 && few;
+        // The general reader takes texts only beside wavelengths in order.
+        let single = self.is_named() && count < 2 && few && rows.repeats(&keys) == 0;
         if single || taken.is_empty() || rows.lines.len() < FEWEST_ROWS * count || count > MAX_CURVES {
             return Ok(None);
         }
@@ -216,8 +217,10 @@ impl Plan {
                 }
             }
         }
-        if gaps > 0 {
-            log.push(Warning::Gaps { cells: gaps, lines, sentinel: None });
+        for (cells, lines) in [(rows.empty.count(), rows.empty.clone()), (gaps, lines)] {
+            if cells > 0 {
+                log.push(Warning::Gaps { cells, lines, sentinel: None });
+            }
         }
         if let Some(first) = left.first() {
             log.push(Warning::NotSpectra { count: left.len(), first: self.description(*first) });
@@ -262,6 +265,8 @@ impl Plan {
 /// Cells of all rows, by column: numbers with their places, and texts by their number among those of the column.
 struct Rows<'a> {
     lines: Vec<usize>,
+    /// Rows without any number, which are left out.
+    empty: LineList,
     wavelengths: Vec<f64>,
     numbers: Vec<Vec<(f64, PlaceId)>>,
     cells: Vec<Vec<u32>>,
@@ -274,9 +279,16 @@ impl<'a> Rows<'a> {
         let width = plan.names.len();
         let mut known: Vec<BTreeMap<&str, u32>> = vec![BTreeMap::new(); width];
         let (numbers, cells, texts) = (vec![Vec::new(); width], vec![Vec::new(); width], vec![Vec::new(); width]);
-        let mut rows = Self { lines: Vec::new(), wavelengths: Vec::new(), numbers, cells, texts };
+        let (lines, wavelengths, empty) = (Vec::new(), Vec::new(), LineList::default());
+        let mut rows = Self { lines, empty, wavelengths, numbers, cells, texts };
         for (number, line) in content(text).skip_while(|(number, _)| *number < plan.first_line) {
             log.at(line.as_ptr() as usize - text.as_ptr() as usize)?;
+            let is_gap = |cell: &str| plan.dialect.parse(cell) == Cell::Gap;
+            let mut others = plan.dialect.cells(line).enumerate().filter(|(column, _)| !plan.keys.contains(column));
+            if plan.dialect.cells(line).nth(plan.axis).is_some_and(is_gap) && others.all(|(_, cell)| is_gap(cell)) {
+                rows.empty.add(number);
+                continue;
+            }
             let mut count = 0;
             for (column, cell) in plan.dialect.cells(line).enumerate() {
                 count = column + 1;
@@ -316,18 +328,20 @@ impl<'a> Rows<'a> {
     }
 
     /// The columns whose cells together tell the samples apart: those that vary, without those that follow the wavelength or are of
-    /// one row each. `None` if rows of one sample have the same wavelength.
+    /// one row each. `None` if more than a few rows of one sample have the same wavelength.
     fn keys(&self, columns: &[usize]) -> Option<Vec<usize>> {
+        const ROWS_PER_REPEAT: usize = 20;
         let mut keys: Vec<usize> = columns.iter().copied().filter(|&key| self.texts[key].len() > 1).collect();
+        let repeats = self.repeats(&keys);
         for key in keys.clone() {
             let rest: Vec<usize> = keys.iter().copied().filter(|other| *other != key).collect();
             let lone = self.texts[key].len() * 2 > self.lines.len();
-            if !rest.is_empty() && (lone || self.follows_wavelength(key)) && self.is_unique(&rest) {
+            if !rest.is_empty() && (lone || self.follows_wavelength(key)) && self.repeats(&rest) <= repeats {
                 keys = rest;
             }
         }
         keys.extend(columns.first().filter(|_| keys.is_empty()));
-        self.is_unique(&keys).then_some(keys)
+        (self.repeats(&keys) * ROWS_PER_REPEAT <= self.lines.len()).then_some(keys)
     }
 
     fn follows_wavelength(&self, key: usize) -> bool {
@@ -349,9 +363,14 @@ impl<'a> Rows<'a> {
         groups
     }
 
-    fn is_unique(&self, keys: &[usize]) -> bool {
+    /// Rows of a sample with the wavelength of an earlier one.
+    fn repeats(&self, keys: &[usize]) -> usize {
         let mut seen = BTreeSet::new();
-        self.groups(keys).iter().zip(&self.wavelengths).all(|(group, nm)| seen.insert((*group, nm.to_bits())))
+        self.groups(keys)
+            .iter()
+            .zip(&self.wavelengths)
+            .filter(|(group, nm)| !seen.insert((**group, nm.to_bits())))
+            .count()
     }
 
     /// Returns whether a number differs in the rows of some sample.

@@ -5,7 +5,7 @@ use crate::grid::{Grid, RawCurve};
 use crate::header_terms::{self, Channel, XUnit};
 use crate::report::Curve;
 use crate::scale::values::{Evidence, LARGEST_PERCENT, Looks};
-use crate::text::{excerpt, has_word};
+use crate::text::{excerpt, has_part, has_word, is_one};
 use crate::uncertainty_terms::{self, Sense};
 use crate::{quantity, unit_text};
 
@@ -268,7 +268,7 @@ fn hinted(grid: &Grid, chosen: Option<Values>) -> Option<Decided<Role>> {
             return Some(Decided::guess(Role::Illuminant, format!("“{}” names light", excerpt(label))));
         }
     }
-    let absorbance = grid.header.clues.absorbance.filter(|_| values.is_none());
+    let absorbance = grid.header.clues.absorbance.filter(|line| values.is_none() && *line > 0);
     if let Some(line) = absorbance {
         return Some(Decided::guess(Role::Transmittance, format!("Line {line} mentions absorbances")));
     }
@@ -340,6 +340,14 @@ pub(super) fn suggested(grid: &Grid, evidence: &Evidence) -> Decided<Role> {
     }
     if let Some(beside) = &grid.beside {
         return beside.clone();
+    }
+    // Absorption alone may be absorbance.
+    let is_coefficient = |label: &str| has_part(&label.to_lowercase(), "coef|scatter|refractive|1/|/cm|cm-1");
+    let is_material =
+        |label: &str| header_terms::names_material(label) && is_coefficient(label) || is_one(label, "n|k");
+    if let Some(label) = labels().next().filter(|_| labels().all(is_material)) {
+        let why = format!("“{}” is a property of a material, not of a surface or a filter", excerpt(label));
+        return Decided::open(Role::Unknown, why);
     }
     let (min, max) = evidence.range();
     let reflectances = if min >= -0.2 && max <= 1.2 { "reflectances" } else { "reflectances in percent" };

@@ -45,10 +45,14 @@ pub(super) fn decide(
             _ => Decided::certain(Values::Plain, "Only reflectances and transmittances are scaled"),
         });
     }
-    if let Some(line) = grid.header.clues.absorbance.filter(|_| role.certainty != Certainty::Certain) {
+    let named = |line: &usize| *line > 0 || role.value == Role::Transmittance && Some(role) == grid.beside.as_ref();
+    if let Some(line) = grid.header.clues.absorbance.filter(|_| role.certainty != Certainty::Certain).filter(named) {
         // No instrument measures larger ones.
         const LARGEST_ABSORBANCE: f64 = 10.0;
-        let why = format!("Line {line} mentions absorbances");
+        let why = match line {
+            0 => role.why.clone(),
+            _ => format!("Line {line} mentions absorbances"),
+        };
         return all(if evidence.range().1 > LARGEST_ABSORBANCE {
             Decided::open(Values::Plain, format!("{why}, but {}", evidence.words()))
         } else {

@@ -1,0 +1,137 @@
+//! What judges of real files found, a ninth time: tidy tables with gaps, bands with a word behind them, words in the names of files,
+//! columns beside spectra, and files of CRAIC, GER, `SCiO`, Spextool, `StellarNet` and Texas Instruments.
+
+use spectral_file::{Certainty, Orientation, Quantity, ReadError, ReadOptions, Role, Source, Values, Warning, read};
+
+use super::{error, names, ok, rows};
+
+fn of_file(path: &str, text: &str) -> spectral_file::SpectralFile {
+    read(Source { path, ..Source::from(text) }, &ReadOptions::default()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn lines(of: impl Fn(usize) -> String) -> String {
+    (400..440).map(of).collect::<Vec<_>>().concat()
+}
+
+#[test]
+fn tidy_tables_may_repeat_a_wavelength_and_have_empty_rows() {
+    let row = |nm| format!("dye,Excitation,{nm},0.{nm}\ndye,Emission,{},0.5\n", nm + 100);
+    let table = ok(&format!("Dye,Type,Wavelength,Value\ndye,Excitation,400,0\n{}dye,Excitation,NA,NA\n", lines(row)));
+    assert_eq!(names(&table), ["Excitation", "Emission"]);
+    assert_eq!((table.curves[0].values[0], table.curves[1].wavelengths_nm[0]), (0.2, 500.0));
+    assert!(table.warnings.iter().any(|warning| matches!(warning, Warning::Gaps { cells: 1, .. })));
+    // One sample, in which the general reader finds no order.
+    let table = ok(&format!("nm,R,source\n400,0.2,a\n{}", lines(|nm| format!("{nm},0.{nm},a\n"))));
+    assert_eq!((names(&table), table.curves[0].values.len()), (vec!["a"], 40));
+}
+
+#[test]
+fn words_behind_bands_tell_groups() {
+    let heads = |word: &str| lines(|nm| format!(",{nm}.5_{word}"));
+    let row = |name: &str| format!("{name}{}\n", ",0.5".repeat(80));
+    let text = format!("fish{}{}\n{}{}", heads("SP1"), heads("SP2"), row("a"), row("b"));
+    let table = ok(&text);
+    assert_eq!((names(&table), table.curves[0].wavelengths_nm[1]), (vec!["a", "b"], 401.5));
+    assert_eq!((table.reading.parts[1].name.as_str(), table.curves[0].unit.as_deref()), ("SP2", None));
+    // Few may be samples: `400_a` to `404_a`.
+    assert!(matches!(
+        error("id,400_a,401_a,402_a,403_a,404_a\nx,1,2,3,4,5\n"),
+        ReadError::NoNumbers | ReadError::NearlyRow { .. }
+    ));
+}
+
+#[test]
+fn one_number_behind_groups_is_none_of_them() {
+    let heads = lines(|nm| format!(",{nm}"));
+    let row = |time: &str| format!("{time}{},0.02\n", ",0.5".repeat(80));
+    let text = format!("wl{heads}{heads},410\n{}{}{}", row("10:01"), row("10:02"), row("10:03"));
+    assert_eq!((ok(&text).curves.len(), ok(&text).curves[0].values.len()), (3, 40));
+}
+
+#[test]
+fn rows_behind_an_index_and_a_class_are_spectra() {
+    let row = |index: usize| format!("{index},1{}\n", ",0.5".repeat(40));
+    let text = format!(",Condition{}\n{}{}{}", lines(|nm| format!(",{nm}.25")), row(103), row(104), row(107));
+    let orientation = ok(&text).reading.orientation;
+    assert_eq!((orientation.value, orientation.certainty), (Orientation::Across, Certainty::Guess));
+}
+
+#[test]
+fn absorbances_are_told_by_names_of_files() {
+    let text = rows(",");
+    for path in ["run/leaf_absorbance.csv", "Absorbances/run 1.csv"] {
+        let table = of_file(path, &text);
+        assert_eq!((table.role.value, table.reading.values.value), (Role::Transmittance, Values::Absorbance));
+        assert_eq!(table.reading.values.certainty, Certainty::Guess);
+    }
+    // The name of the file comes before that of its folder.
+    let table = of_file("absorbance/filter.csv", &text);
+    assert_eq!((table.role.value, table.reading.values.value), (Role::Transmittance, Values::Plain));
+}
+
+#[test]
+fn properties_of_materials_are_called_so() {
+    let why = |head: &str| ok(&format!("nm,{head}\n{}", rows(","))).role.why;
+    assert!(why("absorption coefficient (/cm)").contains("property of a material") && why("n").contains("property"));
+    assert!(!why("Absorption").contains("property"));
+}
+
+#[test]
+fn comments_behind_semicolons_name_columns() {
+    let table = ok(&format!("; made by IDL\n; Wavelength leaf soil\n{}", lines(|nm| format!("{nm} 0.1 0.2\n"))));
+    assert_eq!(names(&table), ["leaf", "soil"]);
+}
+
+#[test]
+fn numbers_beside_spectra_are_none() {
+    let left = |heads: &str, cells: &str| ok(&format!("{heads}\n{}", lines(|nm| format!("{nm}{cells}\n"))));
+    assert_eq!(names(&left("nm,power,luminance", ",0.1,2.5")), ["power"]);
+    assert_eq!(
+        names(&left("nm,Absorbance (AU),Reference Signal (unitless),Sample Signal (unitless)", ",0.1,25,21")).len(),
+        1
+    );
+    let shifts = |nm: usize| format!("{nm},{},0.{nm}\n", nm as f64 - 420.5);
+    for heads in ["Wavelength,Raman Shift,Raw", "Wavelength (nm),Raman Shift (cm-1),Raw"] {
+        assert_eq!(names(&ok(&format!("{heads}\n{}", lines(shifts)))), ["Raw"]);
+    }
+    let spextool = format!("# Xspextool History\n{}", lines(|nm| format!("0.{nm} 0.9 0.01 2\n")));
+    let table = ok(&spextool);
+    assert_eq!((names(&table), table.curves[0].uncertainty.is_some()), (vec!["flux"], true));
+}
+
+#[test]
+fn what_may_be_an_uncertainty_is_said() {
+    let text = |heads: &str| format!("nm,{heads}\n{}", lines(|nm| format!("{nm},0.5,0.01,0.7,0.02\n")));
+    let table = ok(&text("62 Avg,avg std,62 scaled avg,sc avg std"));
+    assert_eq!(names(&table), ["62 Avg", "62 scaled avg"]);
+    assert!(table.curves.iter().all(|curve| curve.uncertainty.is_some()));
+    let table = ok(&text("leaf,soil,rock,moss err"));
+    let said = |warning: &Warning| matches!(warning, Warning::MaybeUncertainty { count: 1, .. });
+    assert!(table.curves.len() == 4 && table.warnings.iter().any(said), "{:?}", table.warnings);
+}
+
+#[test]
+fn programs_name_their_samples_and_modes() {
+    let craic = format!("Gorget_5\nReflectance\nSciMode:IT1=448.99ms:NS1=10:(9/28/2012 3:47:08 PM)\n{}", rows("\t"));
+    assert_eq!(names(&ok(&craic)), ["Gorget_5"]);
+    let ger = format!("///GER SIGNATUR FILE///\nname= a.sig\ndata= \n{}", lines(|nm| format!("{nm}.5  6.36  6.42\n")));
+    assert_eq!(names(&ok(&ger)), ["Reference", "Target"]);
+    let heads = (0..8).map(|band| format!(",spectrum_{band} + 740")).collect::<Vec<_>>().concat();
+    let types = format!("unicode,int{}\n", ",float".repeat(8));
+    let scio = format!("num_wavelengths, 8\nname,id{heads}\n{types}leaf,1{0}\nsoil,2{0}\n", ",0.5".repeat(8));
+    assert_eq!((names(&ok(&scio)), ok(&scio).curves[0].wavelengths_nm[7]), (vec!["leaf", "soil"], 747.0));
+    let stellar = format!("\" File: a\n\" RAD->  Wave:643.77nm  Pix:1050\n{}", rows("  "));
+    let table = ok(&stellar);
+    assert_eq!((table.role.certainty, table.reading.quantity.certainty), (Certainty::Certain, Certainty::Guess));
+    let asd = "Text conversion of header file a.asd\nThere was not a white reference\n\nWavelength\treflec_panel.asd\n";
+    let counts = ok(&format!("{asd}{}", lines(|nm| format!("{nm}\t23{nm}\n"))));
+    assert_ne!(
+        (counts.reading.quantity.value, counts.reading.quantity.certainty),
+        (Quantity::Reflectance, Certainty::Certain)
+    );
+}
+
+#[test]
+fn yaml_is_named() {
+    assert!(error("wavelengths: [400, 410, 420]\nleaf: [0.1, 0.2, 0.3]\n").to_string().contains("YAML"));
+}
