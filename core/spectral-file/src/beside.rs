@@ -56,7 +56,10 @@ pub(super) fn take(source: Source<'_>, grid: &mut Grid) {
     let names_raman = |at: usize| !is_user(at) && names(at, "raman") && !names(at, "nir|ir|ftir|uv|vis");
     let is_raman = (0..folders.len().min(4)).any(names_raman);
     let header = &mut grid.header;
+    let column = grid.wavelength_column.unwrap_or(1).saturating_sub(1);
+    let says_wavelengths = header.name(column).is_some_and(|name| name.to_lowercase().contains("wavelength"));
     if is_raman
+        && !says_wavelengths
         && grid.unit.is_none()
         && matches!(header.x_unit, None | Some((_, XUnit::Wavelength(WavelengthUnit::Wavenumber))))
     {

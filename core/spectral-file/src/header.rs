@@ -345,6 +345,10 @@ impl Header {
         if let Some(unit) = first_unit(text).filter(|_| self.x_unit.is_none()) {
             self.x_unit = Some((line, XUnit::Wavelength(unit)));
         }
+        // Woollam's files have the unit in a line of its own.
+        let alone = WavelengthUnit::from_symbol(text.trim()).map(XUnit::Wavelength);
+        let alone = alone.or_else(|| text.trim().eq_ignore_ascii_case("ev").then_some(XUnit::Other));
+        self.x_unit = self.x_unit.or(alone.map(|unit| (line, unit)));
         if let Some(name) = stated_name(text).filter(|_| self.comment("title").is_none()) {
             self.note(line, "title", name);
         }
@@ -432,8 +436,6 @@ fn whole<'a>(
 pub(super) fn split(dialect: Dialect, line: &str) -> Vec<String> {
     let plain = |cell: &str| {
         let cell = unguarded(cell).replace("\"\"", "\"");
-        let whole = cell.strip_prefix('"').and_then(|cell| cell.strip_suffix('"')).filter(|cell| !cell.contains('"'));
-        let cell = whole.map_or(cell.clone(), str::to_owned);
         if cell.contains(['\n', '\r']) { unit_text::tidy(&cell) } else { cell }
     };
     let mut cells: Vec<String> = dialect.cells(line).take(MAX_CURVES + 1).map(plain).collect();

@@ -205,7 +205,7 @@ const QUANTITIES: [(Quantity, &str, &str); 14] = [
     (
         Quantity::Sensitivity,
         "sensitivit|photosensitiv|responsiv|color match|colour match|color-match|colour-match|cone fund|empfindlichkeit|\
-         sensibilit|sensibilid|感度|luminous efficien|tristimulus val|action spectr",
+         sensibilit|sensibilid|感度|luminous efficien|tristimulus val|action spectr|x bar|y bar|z bar|xbar|ybar|zbar",
         "",
     ),
     (Quantity::Absorptance, "absorptan", ""),

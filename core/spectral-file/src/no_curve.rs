@@ -5,7 +5,7 @@ use crate::decimal::extent;
 use crate::decision::{Decided, Decision, Values};
 use crate::grid::{Grid, RawCurve, retain};
 use crate::options::ReadOptions;
-use crate::text::is_one;
+use crate::text::{begins, is_one, spaced};
 use crate::warning::{LineList, Sentinel, Warning};
 use crate::watch::Log;
 use crate::{header_terms, unit_text};
@@ -17,7 +17,7 @@ pub(super) const FEWEST_ROWS: usize = 3;
 const NAMES: &str = "temperature|temp|temp.|t_amb|ambient temperature|detector temperature|ccd temperature|temperatur|\
     température|temperatura|time|elapsed time|elapsed|timestamp|time stamp|date|day|hour|zeit|temps|tiempo|integration time|\
     exposure|exposure time|humidity|relative humidity|rel. humidity|imgs|noise|snr|s/n|bandwidth|bandpass|fwhm|pressure|air pressure|voltage|battery|battery voltage|\
-    altitude|latitude|longitude|calibration|theta|phase|theta device|gain|flag|flags|quality flag";
+    altitude|latitude|longitude|calibration|theta|phase|theta device|gain|flag|flags|quality flag|bias";
 
 /// What detectors give, recorded beside what was made of it: last words of names.
 const SIGNALS: &str = "current|photocurrent|voltage";
@@ -79,7 +79,7 @@ fn is_companion(curve: &RawCurve, made: bool) -> bool {
     if !curve.named || curve.name.len() > LONGEST || curve.label.len() > 2 * LONGEST {
         return false;
     }
-    let name = unit_text::without_unit(&curve.name).trim().to_lowercase();
+    let name = spaced(unit_text::without_unit(&curve.name).trim());
     let label = curve.label.to_lowercase();
     let bracketed = UNITS.split('|').any(|unit| {
         let inside = |open: char, close: char| label.ends_with(&format!("{open}{unit}{close}"));
@@ -92,7 +92,8 @@ fn is_companion(curve: &RawCurve, made: bool) -> bool {
     let counts =
         header_terms::is_count(&bare) && !bare.contains(' ') && curve.values.len() > 2 && counts(&curve.values);
     // What names a quantity of light is a spectrum, whatever stands in brackets.
-    of_all || (named || bracketed || counts) && header_terms::role(&curve.label).is_none()
+    let integral = begins(&label, "cumulative|cumulated");
+    of_all || integral || (named || bracketed || counts) && header_terms::role(&curve.label).is_none()
 }
 
 pub(super) fn is_empty(column: &[f64]) -> bool {

@@ -201,10 +201,13 @@ pub(super) fn is_statistic(name: &str) -> bool {
     term(name, name).map_or_else(|| without_mean(&key(name)).is_empty(), |term| term.of.is_empty())
 }
 
-/// Returns whether a name has a word that no other name has, unlike the `SE` of a direction or the Sigma of cameras.
+/// Returns whether a name has a word that other names hardly have, unlike the `SE` of a direction, the Sigma of cameras and the `Std` of
+/// a standard solution.
 pub(super) fn has_usual_word(name: &str) -> bool {
-    const WORDS: &str = "std|stdev|stddev|sd|sem|err|error|errors|unc|uncertainty";
-    key(name).split(' ').any(|word| is_one(word, WORDS))
+    const WORDS: &str = "stdev|stddev|err|error|errors|unc|uncertainty";
+    let key = key(name);
+    key.split(' ').any(|word| is_one(word, WORDS))
+        || key.split(' ').next_back().is_some_and(|word| is_one(word, "std|sd|sem"))
 }
 
 /// Returns whether words of a curve's name say that it is the mean of others.

@@ -96,6 +96,7 @@ fn are_energies(numbers: &[f64]) -> bool {
 
 /// Numbered columns from which on they are no curves beside a column of wavelengths.
 const MOST_COUNTED: usize = 10;
+const FEWEST_IN_ORDER: usize = 50;
 
 /// Refuses a first column whose head names another quantity than wavelengths.
 fn no_other_axis(grid: &Grid) -> Result<(), ReadError> {
@@ -117,7 +118,9 @@ fn no_other_axis(grid: &Grid) -> Result<(), ReadError> {
     // `abs1, abs2, …` are numbered samples of spectra, not their wavelengths.
     let stem = names.first().and_then(|name| name.strip_suffix('1')).filter(|stem| !stem.is_empty());
     let is_number = |(at, name): (usize, &String)| stem.is_some_and(|stem| *name == format!("{stem}{}", at + 1));
-    let counted = names.len() >= MOST_COUNTED && names.iter().enumerate().all(is_number);
+    // In order, the first numbers are wavelengths all the same.
+    let in_order = grid.wavelengths.len() >= FEWEST_IN_ORDER && grid.wavelengths.is_sorted_by(|a, b| a < b);
+    let counted = names.len() >= MOST_COUNTED && !in_order && names.iter().enumerate().all(is_number);
     let named = names.first().is_some_and(|name| header_terms::names_other_axis(name) && !setting);
     let other = named || tristimulus || bands || counted;
     if other { Err(ReadError::NoWavelengths(grid.header.line.unwrap_or(1))) } else { Ok(()) }
@@ -148,6 +151,18 @@ const FEW: usize = 10;
 const ANGSTROMS: std::ops::RangeInclusive<f64> = 30.0..=250_000.0;
 const MOST_NM: f64 = 3000.0;
 const MOST_ANGSTROM: f64 = 2e6;
+
+/// Names the columns of a matrix by its first row, behind a zero in the corner: delays or wavelengths of excitation, in order.
+fn name_by_corner(grid: &mut Grid) {
+    const FEWEST: usize = 3;
+    let heads: Vec<f64> = grid.curves.iter().map(|curve| curve.values[0]).collect();
+    let in_order = heads.is_sorted_by(|a, b| a < b) || heads.is_sorted_by(|a, b| a > b);
+    if heads.len() >= FEWEST && in_order && grid.curves.iter().all(|curve| !curve.named) {
+        for (curve, head) in grid.curves.iter_mut().zip(heads) {
+            (curve.name, curve.named) = (head.to_string(), true);
+        }
+    }
+}
 
 /// Converts wavelengths to nanometers. Those beyond the range at one end of the table, where they go on in its order, are left out if
 /// the unit is no guess, or they are few, and most are within.
@@ -191,6 +206,9 @@ pub(super) fn to_nanometers(
         return Err(error);
     }
     let (from_nm, to_nm) = extent(nm.iter().copied().filter(out));
+    if zero && marked[0] {
+        name_by_corner(grid);
+    }
     let mut lines = LineList::default();
     if grid.lines.len() == marked.len() {
         for at in (0..marked.len()).filter(|at| marked[*at]) {

@@ -1,7 +1,9 @@
 //! What judges of real files found, a ninth time: tidy tables with gaps, bands with a word behind them, words in the names of files,
 //! columns beside spectra, and files of CRAIC, GER, `SCiO`, Spextool, `StellarNet` and Texas Instruments.
 
-use spectral_file::{Certainty, Orientation, Quantity, ReadError, ReadOptions, Role, Source, Values, Warning, read};
+use spectral_file::{
+    Certainty, Orientation, Quantity, ReadError, ReadOptions, Role, Source, Values, Warning, WavelengthUnit, read,
+};
 
 use super::{error, names, ok, rows};
 
@@ -86,6 +88,9 @@ fn comments_behind_semicolons_name_columns() {
 fn numbers_beside_spectra_are_none() {
     let left = |heads: &str, cells: &str| ok(&format!("{heads}\n{}", lines(|nm| format!("{nm}{cells}\n"))));
     assert_eq!(names(&left("nm,power,luminance", ",0.1,2.5")), ["power"]);
+    assert_eq!(names(&left("nm,R,IntegrationTime,bias", ",0.1,2.5,3")), ["R"]);
+    let flux = "nm,Spectral irradiance (W m-2 nm-1),Cumulative photon flux (cm-2 s-1)";
+    assert_eq!(names(&left(flux, ",0.1,2.5")), ["Spectral irradiance"]);
     assert_eq!(
         names(&left("nm,Absorbance (AU),Reference Signal (unitless),Sample Signal (unitless)", ",0.1,25,21")).len(),
         1
@@ -128,6 +133,42 @@ fn programs_name_their_samples_and_modes() {
     assert_ne!(
         (counts.reading.quantity.value, counts.reading.quantity.certainty),
         (Quantity::Reflectance, Certainty::Certain)
+    );
+}
+
+#[test]
+fn points_read_off_plots_may_go_back() {
+    let table =
+        ok(&format!("X,Y,X,Y\n400,0.1,410,0.2\n{}403,0.3,405,0.4\n", lines(|nm| format!("{nm},0.1,{},0.2\n", nm + 9))));
+    assert_eq!((table.curves.len(), table.curves[1].wavelengths_nm[0]), (2, 405.0));
+}
+
+#[test]
+fn a_unit_may_stand_alone() {
+    let table = ok(&format!("Gold: 207-1823nm\nANGSTROMS\nNK\n{}", lines(|nm| format!("  {nm}0.  1.4  1.3\n"))));
+    assert_eq!((table.reading.wavelength_unit.value, table.reading.range_nm[0]), (WavelengthUnit::Angstrom, 400.0));
+    assert!(matches!(error("SiO2\neV\nNK\n6.6 1.5 0\n6.5 1.5 0\n6.4 1.5 0\n"), ReadError::NotWavelengths(_)));
+}
+
+#[test]
+fn a_matrix_is_named_by_its_first_row() {
+    let table = ok(&format!("0.0\t-1.5\t0\t2\n{}", lines(|nm| format!("{nm}\t0.1\t0.2\t0.3\n"))));
+    assert_eq!(names(&table), ["-1.5", "0", "2"]);
+}
+
+#[test]
+fn one_name_of_many_says_nothing_of_the_others() {
+    let heads = (0..9).map(|at| format!(",Mueller{at}")).collect::<Vec<_>>().concat();
+    let table =
+        ok(&format!("nm,Reflectance,Transmission{heads}\n{}", lines(|nm| format!("{nm}{}\n", ",0.5".repeat(11)))));
+    assert_eq!((table.role.value, table.role.certainty), (Role::Unknown, Certainty::Open));
+    let numbered = (1..=12).map(|at| format!("Array_{at} ")).collect::<Vec<_>>().concat();
+    let rows = (400..460).map(|nm| format!("{nm}{}\n", " 0.5".repeat(11))).collect::<Vec<_>>().concat();
+    assert_eq!(ok(&format!("{numbered}\n{rows}")).curves.len(), 11);
+    // A folder of Raman spectra holds wavelengths that are named so.
+    assert_eq!(
+        of_file("raman/a.csv", &format!("Wavelength,Raw\n{}", lines(|nm| format!("{nm},0.5\n")))).curves.len(),
+        1
     );
 }
 

@@ -2,7 +2,7 @@
 //! and columns in groups, each with wavelengths of its own before its values.
 
 use crate::columns::raw_curve;
-use crate::decimal::ends;
+use crate::decimal::{ends, extent};
 use crate::decision::{Decided, Decision, WavelengthUnit};
 use crate::error::ReadError;
 use crate::formats::spectra::{self, Sample, Spectrum};
@@ -57,7 +57,9 @@ pub(super) fn find(header: &Header, at: usize, wavelengths: &[f64], before: &[Ve
     // Tables side by side repeat the name of their first column.
     for index in (0..columns.len()).filter(|index| header.name(at + 1 + index).is_some()) {
         let again = kinds[index] == Kind::Value && header.name(at + 1 + index) == header.name(at);
-        if again && ends(&columns[index]).is_some_and(|(low, high)| units::plausible(low, high, false)) {
+        // Points read off a plot may go back a little.
+        let (low, high) = extent(columns[index].iter().copied().filter(|value| !value.is_nan()));
+        if again && units::plausible(low, high, false) {
             (kinds[index], axes.guessed) = (Kind::Wavelengths, true);
         }
     }

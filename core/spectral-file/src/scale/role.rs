@@ -142,7 +142,7 @@ fn mixed(grid: &Grid) -> Option<Decided<Role>> {
     (named("a") && (named("r") || named("t"))).then(|| Decided::open(Role::Unknown, why))
 }
 
-/// Curves, of which one alone says what it is, up to which it speaks for all.
+/// Curves for each that says what it is, up to which it speaks for all.
 const MOST_OTHERS: usize = 4;
 
 /// The role that the columns name. What only a sample is called, such as `radiance paint` among others or against a line
@@ -174,8 +174,9 @@ fn named(grid: &Grid) -> Option<Decided<Role>> {
     }
     // One quantity beside many others, as a detector's efficiency beside the lamps it sees, says nothing of these.
     let count = grid.curves.iter().filter(|curve| header_terms::role(&curve.label).is_some()).count();
-    if count == 1 && grid.curves.len() > MOST_OTHERS {
-        return Some(Decided::open(Role::Unknown, format!("{why}, alone of {}", grid.curves.len())));
+    if count * MOST_OTHERS < grid.curves.len() {
+        let few = if count == 1 { "alone of".to_owned() } else { format!("{count} of") };
+        return Some(Decided::open(Role::Unknown, format!("{why}, {few} {}", grid.curves.len())));
     }
     // Of those that say nothing it is a guess.
     let why = if all || count == grid.curves.len() { why } else { format!("{why}, {count} of {}", grid.curves.len()) };
