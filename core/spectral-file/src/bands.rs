@@ -97,7 +97,7 @@ fn band(dialect: Dialect, name: &str) -> Option<Band<'_>> {
     found.filter(|band| band.is_known() || band.suffix.is_empty() && word(band) || measured(band) || band.is_apart())
 }
 
-/// A band that SCiO numbers from its first wavelength, in nanometers: `spectrum_3 + 740`.
+/// A band that `SCiO` numbers from its first wavelength, in nanometers: `spectrum_3 + 740`.
 fn counted(name: &str) -> Option<Band<'_>> {
     let (index, first) = name.strip_prefix("spectrum_")?.split_once(" + ")?;
     let wavelength = f64::from(index.parse::<u16>().ok()?) + f64::from(first.parse::<u16>().ok()?);

@@ -51,17 +51,9 @@ pub(super) fn take(grid: &mut Grid, log: &mut Log<'_>) {
         terms[index] = terms[index].take().or_else(|| of_difference(&grid.curves, index));
     }
     if terms.iter().all(Option::is_none) {
-        return;
+        return say_doubtful(grid, log);
     }
-    let doubtful: Vec<usize> = (0..terms.len())
-        .filter(|at| !is_own && terms[*at].is_some() && uncertainty_terms::has_usual_word(&grid.curves[*at].name))
-        .collect();
     let uses = if is_own { own_uses(&grid.curves, &terms) } else { settle_uses(grid, &mut terms) };
-    let mut doubtful = doubtful.iter().filter(|at| uses[**at] == Use::Curve);
-    if let Some(first) = doubtful.next() {
-        let first = grid.curves[*first].description();
-        log.push(Warning::MaybeUncertainty { count: 1 + doubtful.count(), first });
-    }
     let mut marks = vec![false; grid.curves.len()];
     for (index, place) in uses.iter().enumerate() {
         match *place {
@@ -76,6 +68,20 @@ pub(super) fn take(grid: &mut Grid, log: &mut Log<'_>) {
         marks[index] = true;
     }
     retain(&mut grid.curves, &marks);
+    say_doubtful(grid, log);
+}
+
+/// Names the curves that may be uncertainties, unless most are called so. The program's own tables say which are.
+fn say_doubtful(grid: &Grid, log: &mut Log<'_>) {
+    let is_own = !grid.header.own.is_empty();
+    let is_doubtful = |curve: &&RawCurve| !is_own && curve.named && uncertainty_terms::has_usual_word(&curve.name);
+    let mut doubtful = grid.curves.iter().filter(is_doubtful);
+    if let Some(first) = doubtful.next().map(RawCurve::description) {
+        let count = 1 + doubtful.count();
+        if 2 * count <= grid.curves.len() {
+            log.push(Warning::MaybeUncertainty { count, first });
+        }
+    }
 }
 
 /// The term of a column such as `dR` or `d_refl` behind one of that name, or of that name with a number: `QE183`, `dQE`. Derivatives

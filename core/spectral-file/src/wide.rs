@@ -130,7 +130,7 @@ fn description(heads: &[&str], at: usize) -> String {
     }
 }
 
-/// Returns whether a cell below a head states the type or the use of its column, as Orange and SCiO write them: `continuous`, `float`.
+/// Returns whether a cell below a head states the type or the use of its column, as Orange and `SCiO` write them: `continuous`, `float`.
 fn names_type(cell: &str) -> bool {
     const TYPES: &str =
         "|c|d|s|t|i|continuous|discrete|string|text|time|class|meta|ignore|int|float|str|unicode|datetime|NoneType|GPS";

@@ -113,6 +113,7 @@ fn what_may_be_an_uncertainty_is_said() {
     let table = ok(&text("leaf,soil,rock,moss err"));
     let said = |warning: &Warning| matches!(warning, Warning::MaybeUncertainty { count: 1, .. });
     assert!(table.curves.len() == 4 && table.warnings.iter().any(said), "{:?}", table.warnings);
+    assert!(ok(&text("dye,dye_error_lower_M-1,soil,moss")).warnings.iter().any(said));
 }
 
 #[test]
