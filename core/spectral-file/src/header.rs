@@ -265,6 +265,10 @@ impl Header {
             let unit = unit_text::unit(value).filter(|_| unit_text::without_unit(value) != value);
             self.unit = unit.or(self.unit.take());
         }
+        let is_new = lower != "title" && self.comment("title").is_none();
+        if let Some(name) = stated_name(&format!("{key}: {value}")).filter(|_| is_new) {
+            self.note(line, "title", name);
+        }
         if is_one(&lower, "response|title|description") {
             self.mentioned = self.mentioned.or_else(|| header_terms::role(value).map(|role| (line, role)));
             self.take_photons(line, value);

@@ -154,9 +154,15 @@ pub(super) fn mentions_absorbance(text: &str) -> bool {
 
 /// Returns whether a header names light on a scale of its own: `Relative power`, `Intensity (a.u.)`, `mW`.
 pub(super) fn names_light_scale(text: &str) -> bool {
-    const WORDS: &str = "power|intensity|emission|energy|luminance|mw|µw|uw|nw|w";
+    const WORDS: &str = "power|intensity|emission|energy|luminance";
+    const UNITS: &str = "mw|µw|uw|nw|w";
     let text = lower(text).replace(" / ", "/");
-    text.trim() == "a.u." || has_word(&text, WORDS) || words(&text).any(|word| word.starts_with("erg/"))
+    // `G_W_1` is a name.
+    let unit = text.trim_end_matches([')', ']']).rsplit(['(', '[', ',']).next().unwrap_or_default();
+    text.trim() == "a.u."
+        || has_word(&text, WORDS)
+        || is_one(unit.trim(), UNITS)
+        || words(&text).any(|word| word.starts_with("erg/"))
 }
 
 pub(super) fn is_power(text: &str) -> bool {
@@ -264,8 +270,8 @@ pub(super) fn quantity(text: &str) -> Option<Quantity> {
 
 pub(super) fn role(text: &str) -> Option<Role> {
     let light = || {
-        let text = lower(text);
-        begins(&text, "radianc|radiant flux|radiant power|radiant energ|irradian|illuminan|light source")
+        let text = spaced(text).replace('_', " ");
+        begins(&text, "photon flux|radianc|radiant flux|radiant power|radiant energ|irradian|illuminan|light source")
             || has_word(&text, "lux|cct")
     };
     match quantity(text) {
@@ -278,7 +284,8 @@ pub(super) fn role(text: &str) -> Option<Role> {
 /// Role that a line of prose gives to the values. `Illuminant: D65` is a condition of colors, as `Observer: 2°` is.
 pub(super) fn role_in_prose(text: &str) -> Option<Role> {
     let key = text.split([':', ',', ';', '=', '\t']).next().unwrap_or_default();
-    let condition = key.len() < text.len() && is_one(&lower(key.trim()), "illuminant|illuminants");
+    let word = lower(key.trim());
+    let condition = key.len() < text.len() && (word.starts_with("illuminant") || word.ends_with("_unit"));
     // A luminance is measured of lights.
     let light = key.len() < text.len() && lower(key.trim()) == "luminance";
     if light { Some(Role::Illuminant) } else { role(text).filter(|_| !condition) }
@@ -400,7 +407,7 @@ pub(super) fn x_unit(text: &str) -> Option<XUnit> {
         return Some(XUnit::Other);
     }
     let energies = has_part(&text, "energ|(ev)|[ev]") || words(&text).count() == 1;
-    let wave_numbers = text.contains("wavenumber") || text.contains("wave number") || text == "wn";
+    let wave_numbers = has_part(&text, WAVE_NUMBERS) || text == "wn";
     let unit = words(&text).find_map(|word| match word {
         "ev" | "kev" | "mev" if energies => Some(XUnit::Other),
         "hz" => Some(XUnit::Wavelength(WavelengthUnit::Hertz)),
@@ -417,6 +424,10 @@ pub(super) fn x_unit(text: &str) -> Option<XUnit> {
 
 /// Words for wavelengths and what stands for them.
 const NAMES: &str = "wavelength|wavelengths|wave|wl|wvl|lambda|λ|wavenumber|wave number|frequency|freq|ν";
+
+/// Wave numbers, in some languages.
+const WAVE_NUMBERS: &str =
+    "wavenumber|wave number|wellenzahl|golfgetal|nombre d'onde|número de onda|numero d'onda|波数";
 
 /// As other languages call them.
 const CALLED: &str = "wellenl|longueur d|longitud de onda|lunghezza d|comprimento de onda|golflengte|våglängd|bølgel|długość fal|\

@@ -64,6 +64,21 @@ pub(super) fn leave_out_blank(grid: &mut Grid, log: &mut Log<'_>) {
     retain(&mut grid.curves, &marks);
 }
 
+/// Warns of columns that hold one number only: zero, or without a name one that may count or mark rows.
+pub(super) fn warn_of_constants(grid: &Grid, log: &mut Log<'_>) {
+    const FEWEST: usize = 10;
+    let is_constant = |curve: &&RawCurve| {
+        let value = curve.values[0];
+        let marks = value == 0.0 || !curve.named && grid.curves.len() > 1 && value.fract() == 0.0;
+        marks && curve.values.len() >= FEWEST && curve.values.iter().all(|other| *other == value)
+    };
+    let mut constant = grid.curves.iter().filter(is_constant);
+    if let Some(first) = constant.next() {
+        let (value, first) = (first.values[0], first.description());
+        log.push(Warning::Constant { count: 1 + constant.count(), first, value });
+    }
+}
+
 fn is_blank(curve: &RawCurve) -> bool {
     curve.values.iter().filter(|value| !value.is_nan()).nth(1).is_none()
 }
@@ -94,6 +109,11 @@ fn is_companion(curve: &RawCurve, made: bool) -> bool {
     // What names a quantity of light is a spectrum, whatever stands in brackets.
     let integral = begins(&label, "cumulative|cumulated");
     of_all || integral || (named || bracketed || counts) && header_terms::role(&curve.label).is_none()
+}
+
+/// Returns whether numbers never turn back.
+pub(super) fn runs_one_way(values: &[f64]) -> bool {
+    values.is_sorted_by(|a, b| a <= b) || values.is_sorted_by(|a, b| a >= b)
 }
 
 pub(super) fn is_empty(column: &[f64]) -> bool {
@@ -139,7 +159,7 @@ pub(super) fn is_other_scale(wavelengths: &[f64], column: &[f64]) -> bool {
 pub(super) fn is_scale_row<'a>(leading: impl Iterator<Item = &'a str>, wavelengths: &[f64], curve: &RawCurve) -> bool {
     let name = leading.filter(|cell| !cell.is_empty()).take(usize::from(curve.named)).next();
     let named = name.is_some_and(|name| {
-        header_terms::names_axis(name)
+        header_terms::names_axis(name) && runs_one_way(&curve.values)
             || header_terms::names_time(name)
             || header_terms::is_count(name) && counts(&curve.values)
     });

@@ -240,6 +240,9 @@ fn renamed(name: &str) -> String {
         }
     });
     let name = kept.collect::<Vec<_>>().join(" ");
+    // `Red_PhotonFlux`
+    let joined = ["PhotonFlux", "photon_flux", "Photon_Flux", "Photon_flux"];
+    let name = joined.iter().fold(name, |name, words| name.replace(words, "").trim_matches('_').to_owned());
     if name.is_empty() || names_photons(&name) {
         return "Spectral power".to_owned();
     }

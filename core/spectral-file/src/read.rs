@@ -62,7 +62,7 @@ pub fn read_watched<'a>(
     watch: Watch<'_>,
 ) -> Result<SpectralFile, ReadError> {
     let source = source.into();
-    let found = read_text(source, options, watch, false).map(|(file, _)| file);
+    let found = read_by_order(source, options, watch, false).map(|(file, _)| file);
     found.map_err(|error| blame(source, options, error, watch))
 }
 
@@ -78,9 +78,28 @@ pub fn read_marked<'a>(
     watch: Watch<'_>,
 ) -> Result<(SpectralFile, Marker), ReadError> {
     let source = source.into();
-    let found =
-        read_text(source, options, watch, true).and_then(|(file, marker)| Ok((file, marker.ok_or(ReadError::Empty)?)));
+    let found = read_by_order(source, options, watch, true)
+        .and_then(|(file, marker)| Ok((file, marker.ok_or(ReadError::Empty)?)));
     found.map_err(|error| blame(source, options, error, watch))
+}
+
+/// Reads with the wavelengths in the column whose numbers are in order where those of the first cannot be wavelengths.
+fn read_by_order(
+    source: Source<'_>,
+    options: &ReadOptions,
+    watch: Watch<'_>,
+    marked: bool,
+) -> Result<(SpectralFile, Option<Marker>), ReadError> {
+    let found = read_text(source, options, watch, marked);
+    let Err(ReadError::OtherWavelengthColumn { column, .. }) = found else { return found };
+    let other = ReadOptions { wavelength_column: Some(column), ..options.clone() };
+    let Ok((mut file, marker)) = read_text(source, &other, watch, marked) else { return found };
+    // Names would say which are wavelengths.
+    if file.reading.header_line.is_some() {
+        return found;
+    }
+    file.warnings.insert(0, Warning::UnnamedWavelengths(column));
+    Ok((file, marker))
 }
 
 /// Reads without a second look at what an error is due to.
@@ -150,12 +169,13 @@ fn finish(
     warnings.look(usize::MAX)?;
     let descending = wavelengths::sort(&mut grid, &mut warnings)?;
     let (range_nm, step_nm) = (grid.range_nm(), Steps::of(&grid.wavelengths));
-    wavelengths::warn(&grid, step_nm, &mut warnings);
+    wavelengths::warn(&grid, step_nm, wavelength_unit.value, &mut warnings);
     warnings.look(usize::MAX)?;
     no_curve::take_sentinels(&mut grid, &mut warnings);
     quantity::suggest_role(&mut grid);
     take_columns_beside(&mut grid, &mut parts, options, &mut warnings);
     no_curve::leave_out_blank(&mut grid, &mut warnings);
+    no_curve::warn_of_constants(&grid, &mut warnings);
     covariance::prepare(covariance, &mut grid);
     let scale = scale::decide(&grid, options, &mut warnings);
     let quantity = quantity::decide(&grid, &scale.role, &mut warnings);

@@ -182,7 +182,7 @@ pub(super) fn comment(line: &str) -> Option<&str> {
     let error_cell = ["N/A", "DIV/0!", "NUM!", "VALUE!", "REF!", "NAME?"].iter().any(|cell| rest.starts_with(cell));
     // As the name of a column that counts the rows it is none.
     let heads = |sign: &str| rest.starts_with(sign) && rest.matches(sign).count() > 1;
-    (!error_cell && ![",", ";", "\t"].into_iter().any(heads)).then(|| rest.trim())
+    (!error_cell && ![",", ";", "\t"].into_iter().any(heads)).then(|| rest.trim_start_matches('#').trim())
 }
 
 /// Longer header lines are prose, or hostile.

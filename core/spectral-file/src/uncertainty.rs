@@ -27,12 +27,16 @@ const UNIT: &str = "its unit is not that of its curve";
 const SECOND: &str = "its curve has another";
 const NEGATIVE: &str = "it has numbers below zero";
 const ZERO: &str = "it is zero everywhere";
+/// Fields from which on names are those of a chart.
+const FEWEST_FIELDS: usize = 10;
+
 const SIDE: &str = "it is of one side only";
 const FEW: &str = "most of its cells are empty";
 
 /// Takes the columns that are uncertainties of other curves from the curves, and gives them to these.
 pub(super) fn take(grid: &mut Grid, log: &mut Log<'_>) {
     let is_own = !grid.header.own.is_empty();
+    let are_fields = grid.curves.iter().filter(|curve| is_field(curve)).nth(FEWEST_FIELDS).is_some();
     let term = |curve: &RawCurve| {
         if is_own {
             return grid
@@ -43,7 +47,8 @@ pub(super) fn take(grid: &mut Grid, log: &mut Log<'_>) {
                 .flatten()
                 .map(uncertainty_terms::expanded);
         }
-        let named = curve.named && grid.curves.len() > 1;
+        // `U1` beside `A1` and `Z20` is a field of a chart.
+        let named = curve.named && grid.curves.len() > 1 && !(are_fields && is_field(curve));
         named.then(|| uncertainty_terms::term(&curve.name, &curve.label)).flatten()
     };
     let mut terms: Vec<Option<Term>> = grid.curves.iter().map(term).collect();
@@ -69,6 +74,12 @@ pub(super) fn take(grid: &mut Grid, log: &mut Log<'_>) {
     }
     retain(&mut grid.curves, &marks);
     say_doubtful(grid, log);
+}
+
+/// Returns whether a name is a letter and a number, as those of fields are: `A1`, `Z20`.
+fn is_field(curve: &RawCurve) -> bool {
+    let number = curve.name.strip_prefix(|c: char| c.is_ascii_alphabetic()).filter(|number| !number.is_empty());
+    number.is_some_and(|number| number.bytes().all(|byte| byte.is_ascii_digit()))
 }
 
 /// Names the curves that may be uncertainties, unless most are called so. The program's own tables say which are.

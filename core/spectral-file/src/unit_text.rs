@@ -1,6 +1,6 @@
 //! Units, and mentions of photons, in the words of a header.
 
-use crate::text::{has_part, is_one, lower, slashed};
+use crate::text::{has_part, is_one, lower, slashed, spaced};
 use crate::{header_terms, units};
 
 /// The unit in a piece of a header, if it holds one: in brackets, or alone.
@@ -184,7 +184,7 @@ pub(super) fn names_photons(text: &str) -> bool {
     if header_terms::says_counts(text) {
         return false;
     }
-    let lower = lower(text).replace('_', " ");
+    let lower = spaced(text).replace('_', " ");
     let word = |word: &str| is_one(word, "ppfd|pfd|spfd|photons|quanta|qntm");
     has_part(&lower, PHOTON_PHRASES)
         || lower.split(|c: char| !c.is_alphanumeric()).any(word) && !lower.contains("/photon")

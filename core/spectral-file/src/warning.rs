@@ -195,6 +195,12 @@ pub enum Warning {
     /// The file states percent, but its values would be fractions. Holds the largest value as written, in words.
     #[error("The file says percent, but no value exceeds {0}: if they are fractions, choose plain numbers")]
     SmallPercent(String),
+    /// A column of one number, which may mark rows.
+    #[error("{first}{} is {value} at all wavelengths", and_more(*.count))]
+    Constant { count: usize, first: String, value: f64 },
+    /// Nothing names the column of the wavelengths. Holds it, from 1.
+    #[error("The numbers of column {0} are in order, as wavelengths are: taken for these")]
+    UnnamedWavelengths(usize),
     #[error("{named} is an uncertainty by its name, but {why}: left out. To read it as a curve, include raw columns")]
     NotUncertainty { named: String, why: &'static str },
     #[error("{first}{} may be an uncertainty by its name, but is read as a curve: nothing says of which it would be", and_more(*.count))]

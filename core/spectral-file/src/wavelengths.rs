@@ -250,7 +250,7 @@ pub(super) fn sort(grid: &mut Grid, log: &mut Log<'_>) -> Result<bool, ReadError
     Ok(descending)
 }
 
-pub(super) fn warn(grid: &Grid, step: Steps, log: &mut Log<'_>) {
+pub(super) fn warn(grid: &Grid, step: Steps, unit: WavelengthUnit, log: &mut Log<'_>) {
     const VISIBLE_NM: std::ops::RangeInclusive<f64> = 380.0..=780.0;
     const LEAST_NM: f64 = 20.0;
     const TIMES: f64 = 10.0;
@@ -266,7 +266,12 @@ pub(super) fn warn(grid: &Grid, step: Steps, log: &mut Log<'_>) {
         return;
     }
     let width = |at: usize| wavelengths[at + 1] - wavelengths[at];
-    let holes = (0..wavelengths.len() - 1).filter(|at| width(*at) > LEAST_NM.max(TIMES * step.median));
+    // Even steps of wave numbers and frequencies are none of wavelengths.
+    let inverse = |at: usize| 1.0 / wavelengths[at] - 1.0 / wavelengths[at + 1];
+    let inverse_median = matches!(unit, WavelengthUnit::Wavenumber | WavelengthUnit::Terahertz | WavelengthUnit::Hertz)
+        .then(|| median((0..wavelengths.len() - 1).map(inverse).collect()));
+    let is_wide = |at: usize| inverse_median.is_none_or(|median| inverse(at) > TIMES * median);
+    let holes = (0..wavelengths.len() - 1).filter(|at| width(*at) > LEAST_NM.max(TIMES * step.median) && is_wide(*at));
     // The first of the widest.
     if let Some(at) = holes.clone().rev().max_by(|a, b| width(*a).total_cmp(&width(*b))) {
         let mut lines = [grid.line(at), grid.line(at + 1)];
@@ -274,6 +279,11 @@ pub(super) fn warn(grid: &Grid, step: Steps, log: &mut Log<'_>) {
         let (from_nm, to_nm, count) = (wavelengths[at], wavelengths[at + 1], holes.count());
         log.push(Warning::Hole { count, from_nm, to_nm, lines: own.then_some(lines) });
     }
+}
+
+fn median(mut numbers: Vec<f64>) -> f64 {
+    numbers.sort_unstable_by(f64::total_cmp);
+    numbers[numbers.len() / 2]
 }
 
 /// Leaves one of rows that are the same, and the mean of rows that differ at one wavelength.

@@ -174,6 +174,58 @@ fn one_name_of_many_says_nothing_of_the_others() {
 }
 
 #[test]
+fn fields_of_charts_are_no_uncertainties() {
+    let fields = ["A", "R", "S", "T", "U"].map(|row| format!(",{row}1,{row}2,{row}3")).concat();
+    let table = ok(&format!("nm{fields}\n{}", lines(|nm| format!("{nm}{}\n", ",0.25".repeat(15)))));
+    assert_eq!(table.curves.len(), 15);
+}
+
+#[test]
+fn parts_of_one_spectrum_from_several_sources_are_one() {
+    let row = |nm: usize| format!("{nm},0.{nm},{}\n", if nm < 420 { "Morel" } else { "Kou" });
+    let table = ok(&format!("wavelength,aw,reference\n{}", lines(row)));
+    assert_eq!((names(&table), table.curves[0].values.len()), (vec!["aw"], 40));
+}
+
+#[test]
+fn columns_of_one_number_are_said() {
+    let table = ok(&lines(|nm| format!("0.{nm} 1.5 0.{nm} 1\n")));
+    assert!(
+        table.warnings.iter().any(|warning| matches!(warning, Warning::Constant { count: 1, .. })),
+        "{:?}",
+        table.warnings
+    );
+}
+
+#[test]
+fn warnings_are_of_what_the_file_has() {
+    // Even steps of wave numbers, and a filter for what is not seen.
+    let even = format!("cm-1,R\n{}", lines(|nm| format!("{},0.5\n", 10 * nm)));
+    assert!(!ok(&even).warnings.iter().any(|warning| matches!(warning, Warning::Hole { .. })));
+    let filter = |nm: usize| format!("{},{}\n", nm - 50, if nm < 430 { 50 } else { 0 });
+    let table = ok(&format!("nm,%T\n{}", lines(filter)));
+    assert!(!table.warnings.iter().any(|warning| matches!(warning, Warning::SmallPercent(_))), "{:?}", table.warnings);
+}
+
+#[test]
+fn words_for_lights_and_axes() {
+    let of = |heads: &str| ok(&format!("{heads}\n{}", lines(|nm| format!("{nm},0.5,0.6\n"))));
+    let photons = of("Wavelength,Red_PhotonFlux,Blue_PhotonFlux");
+    assert_eq!((photons.role.value, names(&photons)), (Role::Illuminant, vec!["Red", "Blue"]));
+    assert_eq!(of("nm,Geranium_G_W_1,a_w").role.value, Role::Unknown);
+    assert_eq!(of("nm,absorption,emission").role.certainty, Certainty::Open);
+    let dutch = ok(&format!("Golfgetal;R\n{}", lines(|nm| format!("{}0;0.5\n", nm))));
+    assert_eq!(dutch.reading.wavelength_unit.value, WavelengthUnit::Wavenumber);
+    let lamp = format!("Illuminant_index;3\nirradiance_unit;0\nnm;Raw\n{}", lines(|nm| format!("{nm};0.5\n")));
+    assert_eq!(ok(&lamp).role.value, Role::Unknown);
+    let energies =
+        read(Source { path: "Au-eV.txt", ..Source::from("0.6 1.5\n0.8 1.6\n1.1 1.7\n") }, &ReadOptions::default());
+    assert!(matches!(energies, Err(ReadError::NotWavelengths(_))));
+    let named = format!("## Type: detector\n## Name: Orca\nwavelength,qe\n{}", lines(|nm| format!("{nm},0.5\n")));
+    assert_eq!(names(&ok(&named)), ["Orca"]);
+}
+
+#[test]
 fn yaml_is_named() {
     assert!(error("wavelengths: [400, 410, 420]\nleaf: [0.1, 0.2, 0.3]\n").to_string().contains("YAML"));
 }

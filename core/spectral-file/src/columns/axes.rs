@@ -9,7 +9,9 @@ use crate::formats::spectra::{self, Sample, Spectrum};
 use crate::grid::Grid;
 use crate::header::Header;
 use crate::header_terms::{self, XUnit};
-use crate::no_curve::{FEWEST_ROWS, counts, counts_from_start, is_empty, is_other_scale, tells_rows_apart};
+use crate::no_curve::{
+    FEWEST_ROWS, counts, counts_from_start, is_empty, is_other_scale, runs_one_way, tells_rows_apart,
+};
 use crate::text::listed;
 use crate::units;
 use crate::watch::{Log, PlaceId};
@@ -110,10 +112,6 @@ fn kind(header: &Header, at: usize, index: usize, wavelengths: &[f64], column: &
         () if name.is_some_and(header_terms::ends_with_wavelengths) && runs_one_way(column) => Kind::Scale,
         () => Kind::Value,
     }
-}
-
-fn runs_one_way(values: &[f64]) -> bool {
-    values.is_sorted_by(|a, b| a <= b) || values.is_sorted_by(|a, b| a >= b)
 }
 
 pub(super) fn unit(header: &Header, column: usize) -> Option<XUnit> {

@@ -170,6 +170,10 @@ impl Plan {
         let Some(keys) = rows.keys(&self.keys) else { return Ok(None) };
         let groups = rows.groups(&keys);
         let count = groups.iter().max().map_or(0, |last| *last as usize + 1);
+        // Wavelengths that go on from one to the next are of one spectrum, whose parts have several sources.
+        if count > 1 && rows.wavelengths.is_sorted_by(|a, b| a < b) {
+            return Ok(None);
+        }
         let is_value = |column: &usize| {
             let name = &self.names[*column];
             let beside =

@@ -32,11 +32,13 @@ fn stated(grid: &Grid) -> Option<Decided<Role>> {
     if let Some(beside) = grid.beside.as_ref().filter(|beside| beside.certainty == Certainty::Certain) {
         return named(grid).or_else(|| of_settings(grid)).or_else(|| Some(beside.clone()));
     }
-    let excited = |curve: &RawCurve| has_word(&curve.name.to_lowercase(), "excitation");
-    if grid.curves.iter().any(excited) && !grid.curves.iter().all(excited) {
+    let any = |word: &str| grid.curves.iter().any(|curve| has_word(&curve.name.to_lowercase(), word));
+    if any("excitation") && !grid.curves.iter().all(|curve| has_word(&curve.name.to_lowercase(), "excitation"))
+        || any("absorption") && any("emission")
+    {
         return Some(Decided::open(
             Role::Unknown,
-            "Excitation and what is emitted are of a dye, neither a light nor a filter",
+            "Excitation, or absorption, and what is emitted are of a dye, neither a light nor a filter",
         ));
     }
     let names: Vec<&str> = grid.curves.iter().take(MOST_CHANNELS + 1).map(|curve| curve.name.as_str()).collect();

@@ -36,7 +36,7 @@ pub(super) fn decide(
         .or_else(|| by_headers(grid, role.value, evidence))
         .or_else(|| said(grid.header.clues.values));
     if let Some(said) = said {
-        doubt_percent(said.0.value, evidence, log);
+        doubt_percent(grid, said.0.value, log);
         return said;
     }
     if !fraction {
@@ -158,9 +158,10 @@ fn warn_of_others(grid: &Grid, columns: &[Values], log: &mut Log<'_>) {
 }
 
 /// Warns of values that are percent by the file, and look like fractions.
-fn doubt_percent(values: Values, evidence: &Evidence, log: &mut Log<'_>) {
+fn doubt_percent(grid: &Grid, values: Values, log: &mut Log<'_>) {
     const LARGEST_FRACTION: f64 = 1.2;
-    let (_, max) = evidence.range();
+    // A filter may let pass what is not seen.
+    let max = grid.curves.iter().flat_map(|curve| &curve.values).copied().fold(f64::NEG_INFINITY, f64::max);
     if values == Values::Percent && max <= LARGEST_FRACTION && max > 0.0 {
         log.push(Warning::SmallPercent(short(max, 4)));
     }
