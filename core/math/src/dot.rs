@@ -10,6 +10,12 @@ use multiversion::multiversion;
 /// `(n / 8 + 3) ε Σ|aᵢ bᵢ|`. The result does not depend on the machine's vector width: no operation is fused.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
+    dot_inline(a, b)
+}
+
+/// [`dot`] inside a caller that is compiled for several instruction sets itself: of short vectors the choice takes as long as the product.
+#[inline(always)]
+pub fn dot_inline(a: &[f64], b: &[f64]) -> f64 {
     let n = a.len().min(b.len());
     let (a, b) = (&a[..n], &b[..n]);
     let mut lanes = [0.0; 8];

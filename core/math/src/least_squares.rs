@@ -1,6 +1,8 @@
 //! Small least-squares problems with an exact side condition.
 
+use crate::dot::dot_inline;
 use glam::{DMat3, DVec3};
+use multiversion::multiversion;
 
 /// Reason that a fit has no answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
@@ -30,6 +32,7 @@ pub enum FitError {
 ///
 /// # Errors
 /// [`FitError`] where the samples do not determine a matrix.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
 pub fn matrix_keeping(samples: &[DVec3], targets: &[DVec3], white: DVec3, image: DVec3) -> Result<DMat3, FitError> {
     // By its largest component, because the squares of a tiny white underflow.
     let largest = white.abs().max_element();
@@ -41,16 +44,20 @@ pub fn matrix_keeping(samples: &[DVec3], targets: &[DVec3], white: DVec3, image:
     let n1 = along.any_orthonormal_vector();
     let n2 = along.cross(n1);
     let fixed = image / length;
-    let mut both: Vec<f64> = [n1, n2].iter().flat_map(|n| samples.iter().map(|a| n.dot(*a))).collect();
+    let mut all: Vec<f64> = Vec::with_capacity(3 * samples.len());
+    for n in [along, n1, n2] {
+        all.extend(samples.iter().map(|a| n.dot(*a)));
+    }
+    let scale = dot_inline(&all, &all).sqrt();
+    let (fixed_part, both) = all.split_at_mut(samples.len());
     let (first, second) = both.split_at_mut(samples.len());
-    let scale = samples.iter().map(|a| a.length_squared()).sum::<f64>().sqrt();
     let r11 = normalize(first, scale)?;
-    let r12: f64 = first.iter().zip(&*second).map(|(q, v)| q * v).sum();
+    let r12 = dot_inline(first, second);
     second.iter_mut().zip(&*first).for_each(|(v, q)| *v -= r12 * q);
     let r22 = normalize(second, scale)?;
     let (mut c1, mut c2) = (DVec3::ZERO, DVec3::ZERO);
-    for ((sample, target), (q1, q2)) in samples.iter().zip(targets).zip(first.iter().zip(&*second)) {
-        let residual = *target - fixed * along.dot(*sample);
+    for ((part, target), (q1, q2)) in fixed_part.iter().zip(targets).zip(first.iter().zip(&*second)) {
+        let residual = *target - fixed * *part;
         c1 += residual * *q1;
         c2 += residual * *q2;
     }
@@ -90,16 +97,19 @@ pub fn linear_fit<R: AsRef<[f64]>>(rows: &[R], targets: &[DVec3], keep: Option<D
     let first = keep.map(|image| image / length);
     let mut residuals: Vec<DVec3> =
         all().zip(targets).map(|(row, target)| first.map_or(*target, |first| *target - first * row[0])).collect();
-    let scale = all().flatten().map(|v| v * v).sum::<f64>().sqrt();
-    let mut columns: Vec<f64> = (fixed..terms).flat_map(|j| all().map(move |row| row[j])).collect();
+    let scale = all().map(|row| dot_inline(row, row)).sum::<f64>().sqrt();
     let count = terms - fixed;
+    let mut columns: Vec<f64> = Vec::with_capacity(count * rows.len());
+    for j in fixed..terms {
+        columns.extend(all().map(|row| row[j]));
+    }
     let mut upper = vec![0.0; count * count];
     let mut projected = vec![DVec3::ZERO; count];
     for (j, (upper, projected)) in upper.chunks_mut(count).zip(&mut projected).enumerate() {
         let (column, rest) = columns[j * rows.len()..].split_at_mut(rows.len());
         upper[j] = normalize(column, scale)?;
         for (other, factor) in rest.chunks_mut(rows.len()).zip(&mut upper[j + 1..]) {
-            *factor = column.iter().zip(other.iter()).map(|(q, v)| q * v).sum();
+            *factor = dot_inline(column, other);
             other.iter_mut().zip(column.iter()).for_each(|(v, q)| *v -= *factor * q);
         }
         *projected = column.iter().zip(&residuals).map(|(q, b)| *b * *q).sum();
@@ -109,7 +119,7 @@ pub fn linear_fit<R: AsRef<[f64]>>(rows: &[R], targets: &[DVec3], keep: Option<D
         let known: DVec3 = (j + 1..count).map(|k| projected[k] * upper[j * count + k]).sum();
         projected[j] = (projected[j] - known) / upper[j * count + j];
     }
-    let leverages = (0..rows.len()).map(|i| columns.iter().skip(i).step_by(rows.len()).map(|q| q * q).sum()).collect();
+    let leverages = (0..rows.len()).map(|i| (0..count).map(|j| columns[j * rows.len() + i].powi(2)).sum()).collect();
     let mut coefficients: Vec<DVec3> = first.into_iter().chain(projected).collect();
     if keep.is_some() {
         for channel in 0..3 {
@@ -135,8 +145,9 @@ fn reflect(row: &[f64]) -> Vec<f64> {
 }
 
 /// Scales a column to unit length and returns the length it had.
+#[inline(always)]
 fn normalize(column: &mut [f64], scale: f64) -> Result<f64, FitError> {
-    let norm = column.iter().map(|v| v * v).sum::<f64>().sqrt();
+    let norm = dot_inline(column, column).sqrt();
     if norm.is_nan() || norm <= 1e-10 * scale {
         return Err(FitError::Dependent);
     }

@@ -1,6 +1,6 @@
 //! Normal numbers with a covariance: its root, and draws that have it.
 
-use crate::dot::dot;
+use crate::dot::{dot, dot_inline};
 use crate::random::SplitMix64;
 use multiversion::multiversion;
 
@@ -164,7 +164,7 @@ fn without(vector: &[f64], space: &[Vec<f64>]) -> Vec<f64> {
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
 pub fn take_out(vector: &mut [f64], space: &[Vec<f64>]) {
     for axis in space {
-        let along = dot(vector, axis);
+        let along = dot_inline(vector, axis);
         vector.iter_mut().zip(axis).for_each(|(v, a)| *v -= along * a);
     }
 }

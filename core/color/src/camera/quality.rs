@@ -8,13 +8,14 @@ use crate::colorimetry::lab::{lab_from_each, lab_from_xyz};
 use crate::colorimetry::{Lab, Xyz, delta_e_1976};
 use crate::correction::minimize::{Objective, Refit};
 use crate::correction::{Correction, CorrectionMethod, RgbTransform, Training};
-use crate::math::dot::dot;
+use crate::math::dot::{dot, dot_inline};
 use crate::math::least_squares::FitError;
 use crate::math::normal::take_out;
 use crate::patch_set::PatchSet;
 use crate::spectral::{GridSpectrum, Sensor};
 use crate::units::{bits, hash_by};
 use glam::{DMat3, DVec3};
+use multiversion::multiversion;
 
 /// Rounds of reweighting of fits near one of minimum ΔE*ab.
 const REFIT_ROUNDS: usize = 4;
@@ -263,12 +264,21 @@ impl ObserverSpace {
 
     /// Agreement of a sensor's curves, in one scale and the coordinates of the observer's; none where they are linearly dependent.
     pub fn quality(&self, channels: &[Vec<f64>; 3]) -> Option<SpaceQuality> {
-        let (own, seen) = (basis(channels)?, &self.basis);
-        let vora = own.iter().map(|curve| inside(curve, seen)).sum::<f64>() / 3.0;
-        let left: f64 = self.curves.iter().map(|curve| outside(curve, &own)).sum();
-        let factors = channels.each_ref().map(|curve| inside(curve, seen) / dot(curve, curve));
-        Some(SpaceQuality { vora, luther: (left / self.power).sqrt(), factors })
+        quality(self, channels)
     }
+}
+
+/// Compiled as a whole for several instruction sets: of curves in coordinates the products are short, but many.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
+fn quality(observer: &ObserverSpace, channels: &[Vec<f64>; 3]) -> Option<SpaceQuality> {
+    let (own, seen) = (basis(channels)?, &observer.basis);
+    let (mut vora, mut left, mut factors) = (0.0, 0.0, [0.0; 3]);
+    for c in 0..3 {
+        vora += inside(&own[c], seen);
+        left += outside(&observer.curves[c], &own);
+        factors[c] = inside(&channels[c], seen) / dot_inline(&channels[c], &channels[c]);
+    }
+    Some(SpaceQuality { vora: vora / 3.0, luther: (left / observer.power).sqrt(), factors })
 }
 
 /// The three curves on the grid, each scaled to its largest value: neither spaces nor ratios within a curve's set change where all
@@ -281,30 +291,36 @@ pub fn curves(sensor: &Sensor) -> [Vec<f64>; 3] {
 }
 
 /// Orthonormal basis of the space of three curves, by Gram and Schmidt's method done twice.
-pub fn basis(curves: &[Vec<f64>; 3]) -> Option<Vec<Vec<f64>>> {
+#[inline(always)]
+fn basis(curves: &[Vec<f64>; 3]) -> Option<Vec<Vec<f64>>> {
     let mut found: Vec<Vec<f64>> = Vec::with_capacity(3);
     for curve in curves {
-        let length = dot(curve, curve).sqrt();
+        let length = dot_inline(curve, curve).sqrt();
         let mut rest = curve.clone();
         take_out(&mut rest, &found);
         take_out(&mut rest, &found);
-        let left = dot(&rest, &rest).sqrt();
+        let left = dot_inline(&rest, &rest).sqrt();
         if left.is_nan() || left <= DEPENDENT * length {
             return None;
         }
-        found.push(rest.iter().map(|v| v / left).collect());
+        for value in &mut rest {
+            *value /= left;
+        }
+        found.push(rest);
     }
     Some(found)
 }
 
 /// Squared length of a curve's projection onto a space.
+#[inline(always)]
 fn inside(curve: &[f64], space: &[Vec<f64>]) -> f64 {
-    space.iter().map(|axis| dot(curve, axis).powi(2)).sum()
+    space.iter().fold(0.0, |square, axis| square + dot_inline(curve, axis).powi(2))
 }
 
 /// Squared length of what a projection onto a space leaves of a curve; by subtraction, so that it is exact where little is left.
+#[inline(always)]
 fn outside(curve: &[f64], space: &[Vec<f64>]) -> f64 {
     let mut rest = curve.to_vec();
     take_out(&mut rest, space);
-    dot(&rest, &rest)
+    dot_inline(&rest, &rest)
 }
