@@ -8,12 +8,15 @@ use crate::math::minimum::minimum;
 use crate::spectral::Sensor;
 use crate::units::Kelvin;
 use glam::DVec2;
+use multiversion::multiversion;
 use std::ops::Deref;
 
 /// Reciprocal temperatures of the reference's locus, in mired: 100 000 K to 500 K.
 const RANGE_MIRED: [f64; 2] = [10.0, 2000.0];
 /// Points that are looked at first, evenly in reciprocal temperature.
 const POINTS: usize = 400;
+/// Points that are looked at side by side: two registers of any width.
+const LANES: usize = 16;
 /// Distance from the locus in the CIE 1960 diagram beyond which a correlated color temperature is meaningless (CIE 15).
 const FARTHEST_UV: f64 = 0.05;
 /// Share of a reciprocal temperature over which the locus's direction is taken.
@@ -45,17 +48,22 @@ pub struct LocusDeviation {
 pub struct ReferenceLocus<S> {
     evaluator: LocusEvaluator<S>,
     rendering: Rendering,
-    /// Mired, and place in the CIE 1960 diagram.
-    points: Vec<(f64, Uv60)>,
+    /// Points: mired, then u and v in the CIE 1960 diagram, infinite where whole registers need more.
+    points: [Vec<f64>; 3],
 }
 
 impl<S: Deref<Target = Sensor>> ReferenceLocus<S> {
     /// Prepares the locus of the reference.
     pub fn new(evaluator: LocusEvaluator<S>, rendering: Rendering) -> Self {
-        let mut locus = Self { evaluator, rendering, points: Vec::new() };
+        let mut locus = Self { evaluator, rendering, points: Default::default() };
         let [first, last] = RANGE_MIRED;
         let mired = (0..POINTS).map(|i| first + (last - first) * i as f64 / (POINTS - 1) as f64);
-        locus.points = mired.filter_map(|mired| Some((mired, locus.at(mired)?.uv60()))).collect();
+        let points: Vec<_> = mired.filter_map(|mired| Some((mired, locus.at(mired)?.uv60()))).collect();
+        locus.points = [0, 1, 2].map(|of| points.iter().map(|(mired, at)| [*mired, at.u, at.v][of]).collect());
+        let whole = points.len().next_multiple_of(LANES);
+        for list in &mut locus.points[1..] {
+            list.resize(whole, f64::INFINITY);
+        }
         locus
     }
 
@@ -71,24 +79,25 @@ impl<S: Deref<Target = Sensor>> ReferenceLocus<S> {
         const NODES: usize = 8;
         let [first, last] = RANGE_MIRED;
         let place = (mired - first) * (POINTS - 1) as f64 / (last - first);
-        if !(0.0..=(POINTS - 1) as f64).contains(&place) || self.points.len() != POINTS {
+        let [all, u, v] = &self.points;
+        if !(0.0..=(POINTS - 1) as f64).contains(&place) || all.len() != POINTS {
             return self.at(mired);
         }
         let start = (place as usize).saturating_sub(NODES / 2 - 1).min(POINTS - NODES);
-        let nodes = &self.points[start..start + NODES];
+        let nodes = start..start + NODES;
         let within = place - start as f64;
         let node = within as usize;
         let place = if within == node as f64 {
-            nodes[node].1
+            Uv60 { u: u[start + node], v: v[start + node] }
         } else {
             // Barycentric weights of evenly spaced nodes: binomial coefficients in turns of sign.
             const WEIGHTS: [f64; NODES] = [1.0, -7.0, 21.0, -35.0, 35.0, -21.0, 7.0, -1.0];
-            let (mut u, mut v, mut all) = (0.0, 0.0, 0.0);
+            let mut sums = [0.0; 3];
             let weights = array::<_, NODES>(|node| WEIGHTS[node] / (within - node as f64));
-            for ((_, place), weight) in nodes.iter().zip(weights) {
-                (u, v, all) = (u + weight * place.u, v + weight * place.v, all + weight);
+            for ((u, v), weight) in u[nodes.clone()].iter().zip(&v[nodes]).zip(weights) {
+                sums = [sums[0] + weight * u, sums[1] + weight * v, sums[2] + weight];
             }
-            Uv60 { u: u / all, v: v / all }
+            Uv60 { u: sums[0] / sums[2], v: sums[1] / sums[2] }
         };
         Some(UvPrime { u: place.u, v: place.v * 1.5 })
     }
@@ -104,7 +113,7 @@ impl<S: Deref<Target = Sensor>> ReferenceLocus<S> {
     }
 
     fn away(
-        points: &[(f64, Uv60)],
+        points: &[Vec<f64>; 3],
         at: impl Fn(f64) -> Option<UvPrime>,
         temperature: Kelvin,
         color: UvPrime,
@@ -126,16 +135,29 @@ impl<S: Deref<Target = Sensor>> ReferenceLocus<S> {
     }
 }
 
+/// The point nearest to a color, of several the first; the first of all where none has a distance.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd", "x86_64+avx2", "aarch64+neon"))]
+fn nearest_point(u: &[f64], v: &[f64], color: Uv60) -> usize {
+    let (mut least, mut nearest) = ([f64::INFINITY; LANES], [0.0; LANES]);
+    for (block, (u, v)) in u.as_chunks::<LANES>().0.iter().zip(v.as_chunks::<LANES>().0).enumerate() {
+        for lane in 0..LANES {
+            let square = (u[lane] - color.u).powi(2) + (v[lane] - color.v).powi(2);
+            let is_nearer = square < least[lane];
+            least[lane] = if is_nearer { square } else { least[lane] };
+            nearest[lane] = if is_nearer { (block * LANES + lane) as f64 } else { nearest[lane] };
+        }
+    }
+    let nearer = |best, own| if own < best { own } else { best };
+    least.into_iter().zip(nearest).fold((f64::INFINITY, 0.0), nearer).1 as usize
+}
+
 /// Temperature in kelvins of the nearest point of a locus, and the distance from it.
-fn nearest(points: &[(f64, Uv60)], at: impl Fn(f64) -> Option<UvPrime>, color: Uv60) -> Option<(f64, f64)> {
-    let away = |place: Uv60| (place.u - color.u).powi(2) + (place.v - color.v).powi(2);
-    let nearer = |best: (usize, f64), (at, distance)| if distance < best.1 { (at, distance) } else { best };
-    let distances = points.iter().map(|(_, place)| away(*place)).enumerate();
-    let (nearest, _) = distances.fold((0, f64::INFINITY), nearer);
-    if nearest == 0 || nearest + 1 == points.len() {
+fn nearest([mired, u, v]: &[Vec<f64>; 3], at: impl Fn(f64) -> Option<UvPrime>, color: Uv60) -> Option<(f64, f64)> {
+    let nearest = nearest_point(u, v, color);
+    if nearest == 0 || nearest + 1 >= mired.len() {
         return None;
     }
-    let (low, high) = (points[nearest - 1].0, points[nearest + 1].0);
+    let (from, low, high) = (mired[nearest], mired[nearest - 1], mired[nearest + 1]);
     let at = |mired: f64| at(mired).map_or(DVec2::INFINITY, |place| DVec2::new(place.uv60().u, place.uv60().v));
     let color = DVec2::new(color.u, color.v);
     // Newton's method: the tangent is perpendicular to the way to the color.
@@ -150,7 +172,7 @@ fn nearest(points: &[(f64, Uv60)], at: impl Fn(f64) -> Option<UvPrime>, color: U
     let inside = |mired: &f64| (low..=high).contains(mired);
     let by_steps = |from: f64| (0..STEPS).try_fold(from, |mired, _| Some(nearer(mired)).filter(inside));
     let sections = || minimum(low, high, SEARCH, |mired| at(mired).distance_squared(color));
-    let mired = by_steps(points[nearest].0).or_else(|| by_steps(sections()))?;
+    let mired = by_steps(from).or_else(|| by_steps(sections()))?;
     let place = at(mired);
     let duv = place.distance(color).copysign(color.y - place.y);
     (duv.abs() <= FARTHEST_UV).then(|| (1e6 / mired, duv))
