@@ -7,8 +7,8 @@ use super::{Lab, bounded};
 use crate::math::exp::exp;
 use multiversion::multiversion;
 
-/// Pairs that are worked on side by side.
-const LANES: usize = 32;
+/// Pairs that are worked on side by side: whole registers of any width, and as many as the usual chart has.
+const LANES: usize = 24;
 
 /// sin and cos of 6°, 30° and 63°, which the weighting of hues turns by.
 const SIN_6: f64 = 0.104_528_463_267_653_47;
