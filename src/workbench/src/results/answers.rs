@@ -113,39 +113,42 @@ impl<Q: Query> Table<Q> {
         Some(Arc::clone(&made.answer))
     }
 
-    /// Evicts the least recently requested answers, until the rest is within the limits.
-    fn excess(&mut self) -> Vec<Arc<Q::Answer>> {
+    /// Evicts the least recently requested answers after one of so many bytes, until the rest is within the limits. Beyond their number
+    /// a sixteenth of it goes at once: each of a thousand answers would look through all the others.
+    fn excess(&mut self, new_bytes: usize) -> Vec<Slot<Q::Answer>> {
+        if new_bytes == 0 && self.slots.len() <= Q::CAPACITY {
+            return Vec::new();
+        }
         let made = |slot: &Slot<Q::Answer>| match slot {
             Slot::Made(made) => Some((made.asked, made.bytes)),
             Slot::Making => None,
         };
-        let (mut count, mut bytes) =
-            self.slots.values().filter_map(made).fold((0, 0), |(count, all), (_, bytes)| (count + 1, all + bytes));
-        let mut taken = Vec::new();
-        while count > 1 && (count > Q::CAPACITY || bytes > BYTES) {
-            let oldest = self.slots.iter().filter_map(|(query, slot)| Some((made(slot)?, query)));
-            let Some(((_, size), query)) = oldest.min_by_key(|((asked, _), _)| *asked) else { break };
-            let query = query.clone();
-            if let Some(Slot::Made(oldest)) = self.slots.remove(&query) {
-                taken.push(oldest.answer);
+        let mut known: Vec<(u64, usize)> = self.slots.values().filter_map(made).collect();
+        known.sort_unstable();
+        let (mut count, mut bytes, mut last) = (known.len(), known.iter().map(|(_, bytes)| bytes).sum::<usize>(), None);
+        let most = if count > Q::CAPACITY { Q::CAPACITY - Q::CAPACITY / 16 } else { count };
+        for (asked, size) in known {
+            if count <= 1 || (count <= most && bytes <= BYTES) {
+                break;
             }
-            (count, bytes) = (count - 1, bytes - size);
+            (count, bytes, last) = (count - 1, bytes - size, Some(asked));
         }
-        taken
+        let is_old = |slot: &Slot<_>| made(slot).is_some_and(|(asked, _)| Some(asked) <= last);
+        self.slots.extract_if(|_, slot| is_old(slot)).map(|(_, slot)| slot).collect()
     }
 }
 
 impl<Q: Query> Claim<'_, Q> {
     /// Ends the computation with an answer to remember, or with none where it is not whole.
     pub(super) fn end(self, answer: Option<&Arc<Q::Answer>>, now: u64, made: Count) {
-        let kept =
-            answer.map(|answer| Slot::Made(Made { answer: Arc::clone(answer), asked: now, bytes: Q::bytes(answer) }));
+        let bytes = answer.map_or(0, |answer| Q::bytes(answer));
+        let kept = answer.map(|answer| Slot::Made(Made { answer: Arc::clone(answer), asked: now, bytes }));
         let mut table = self.answers.lock();
         table.count.misses += made.misses;
         table.count.time += made.time;
         table.count.own_time += made.own_time;
         let before = kept.and_then(|kept| table.slots.insert(self.query.clone(), kept));
-        let excess = table.excess();
+        let excess = table.excess(bytes);
         drop(table);
         // Large answers are dropped while no lock is held.
         drop((before, excess));
