@@ -1,6 +1,6 @@
 //! Interpolation of tables: linear anywhere, Sprague's fifth degree on uniform steps.
 
-use crate::array::sum;
+use crate::array::{each, sum};
 
 /// Interpolates linearly at `x` in a table with strictly ascending abscissae; outside, the end value.
 ///
@@ -79,6 +79,11 @@ impl Sprague {
 
     /// The interpolated value at `x`; outside the table, the end value.
     pub fn at(&self, x: f64) -> f64 {
+        self.at_next(x, &mut (usize::MAX, [0.0; 5]))
+    }
+
+    /// [`Self::at`], with the coefficients of the cell that the place before was in: on a finer grid, most are in the same.
+    pub fn at_next(&self, x: f64, (known, coefficients): &mut (usize, [f64; 5])) -> f64 {
         let last = self.padded.len() - 5;
         let position = ((x - self.start) / self.step).clamp(0.0, last as f64);
         let cell = position as usize;
@@ -88,10 +93,12 @@ impl Sprague {
         }
         let t = position - cell as f64;
         let neighbors = &self.padded[cell..cell + 6];
-        let coefficient = |row: &[f64; 6]| sum(6, |j| row[j] * neighbors[j]) / 24.0;
+        if *known != cell {
+            (*known, *coefficients) = (cell, each(QUINTIC, |row| sum(6, |j| row[j] * neighbors[j]) / 24.0));
+        }
         let mut value = 0.0;
         for power in (0..5).rev() {
-            value = (value + coefficient(&QUINTIC[power])) * t;
+            value = (value + coefficients[power]) * t;
         }
         neighbors[2] + value
     }

@@ -116,14 +116,14 @@ impl GridSpectrum {
     pub fn resample(spectrum: &SpectralDistribution, quantity: Quantity) -> Self {
         let [first, last] = spectrum.range_nm();
         let smooth = sprague(spectrum, quantity);
-        let mut values = Box::new([0.0; COUNT]);
+        let (mut values, mut cell) = (Box::new([0.0; COUNT]), (usize::MAX, [0.0; 5]));
         for (index, value) in values.iter_mut().enumerate() {
             let x = wavelength_nm(index);
             if quantity.ends_in_zero() && !(first..=last).contains(&x) {
                 continue;
             }
             let y = match &smooth {
-                Some(sprague) => sprague.at(x),
+                Some(sprague) => sprague.at_next(x, &mut cell),
                 None => linear(spectrum.wavelengths_nm(), spectrum.values(), x),
             };
             *value = if quantity.clamps() { y.max(0.0) } else { y };
