@@ -1,5 +1,7 @@
 //! Uncertainties of figures of merit as they are written: the same in tables, figures and files.
 
+use std::sync::Arc;
+
 use chromascope_core::colorimetry::Metric;
 use chromascope_core::query::Ask as _;
 use chromascope_core::query::Shared;
@@ -10,7 +12,7 @@ use chromascope_figure::{Cell, Column, Table};
 
 use super::{Result, Scene};
 use crate::catalog::Entry;
-use crate::catalog::load::StatedQuery;
+use crate::catalog::load::{Stated, StatedQuery};
 use crate::document::{Light, SetKind};
 use crate::format::{behind, decimals_by, rank_in_words, rounded, whole};
 
@@ -210,14 +212,17 @@ impl Scene<'_> {
             _ => None,
         };
         let cameras = cameras.into_iter().filter_map(|name| self.entry(SetKind::Camera, name).ok());
-        let sentence = |entry: Entry| {
-            let stated = self.results.ask(&StatedQuery { place: entry.place, names: None });
+        let entries: Vec<Entry> =
+            light.into_iter().chain(self.chart_entry(&self.document.chart)).chain(cameras).collect();
+        let query = |entry: &Entry| StatedQuery { place: entry.place.clone(), names: None };
+        let sentence = |(entry, stated): (&Entry, Arc<Stated>)| {
             let instead = match stated.uncertainty {
                 Some(_) => "Its uncertainties are used without",
                 None => "No uncertainty of its own is used",
             };
-            stated.refused.map(|refused| format!("{}: {refused}. {instead}.", entry.name))
+            stated.refused.as_ref().map(|refused| format!("{}: {refused}. {instead}.", entry.name))
         };
-        light.into_iter().chain(self.chart_entry(&self.document.chart)).chain(cameras).filter_map(sentence).collect()
+        let stated = self.results.ask_all(&entries.iter().map(query).collect::<Vec<_>>());
+        entries.iter().zip(stated).filter_map(sentence).collect()
     }
 }
