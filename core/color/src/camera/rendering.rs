@@ -98,6 +98,8 @@ pub struct Rendering {
     pub is_rgb: bool,
     /// The smallest share that is left of a white integral after cancellation; below 0.01 the balance is fragile.
     pub conditioning: f64,
+    /// Raw integrals of the training reflectances that the color transform was fitted over, if it was.
+    pub training: Option<Arc<[DVec3]>>,
 }
 
 impl Rendering {
@@ -164,6 +166,7 @@ impl Rendering {
             lab_white: Xyz::from_vector(XYZ_FROM_SRGB * white),
             is_rgb: true,
             conditioning,
+            training: None,
         })
     }
 
@@ -196,6 +199,7 @@ impl Rendering {
             lab_white: reference.lab_white,
             is_rgb,
             conditioning,
+            training: None,
         })
     }
 
@@ -295,6 +299,7 @@ fn direct(sensor: &Sensor, light: &GridSpectrum) -> Result<Rendering, RenderingE
         lab_white: white,
         is_rgb: false,
         conditioning,
+        training: None,
     })
 }
 
@@ -365,16 +370,21 @@ impl FitTargets {
     }
 }
 
-/// Balanced RGB of training reflectances, 1 for a perfect diffuser, with the divisors and their conditioning.
-fn balanced(
+/// Raw integrals of training reflectances, with their divisors, those of a perfect diffuser, and their conditioning.
+fn training_integrals(
     sensor: &Sensor,
     light: &GridSpectrum,
     training: &PatchSet,
-) -> Result<(Vec<DVec3>, DVec3, f64), RenderingError> {
+) -> Result<(Arc<[DVec3]>, DVec3, f64), RenderingError> {
     let (integrals, conditioning) = white_integrals(sensor, light)?;
     let product = under_light(sensor, light);
-    let samples = training.patches().iter().map(|patch| raw(&product, patch.grid.values()) / integrals);
-    Ok((samples.collect(), integrals, conditioning))
+    let all = training.patches().iter().map(|patch| raw(&product, patch.grid.values()));
+    Ok((all.collect(), integrals, conditioning))
+}
+
+/// Raw integrals over those of a perfect diffuser.
+pub fn balanced(raw: &[DVec3], white_integrals: DVec3) -> Vec<DVec3> {
+    raw.iter().map(|raw| *raw / white_integrals).collect()
 }
 
 /// Samples that a color correction of a sensor is fitted over.
@@ -403,7 +413,8 @@ impl FitSamples {
         training: &PatchSet,
         targets: Result<&FitTargets, RenderingError>,
     ) -> Result<Self, RenderingError> {
-        let (samples, white_integrals, _) = balanced(sensor, light, training)?;
+        let (raw, white_integrals, _) = training_integrals(sensor, light, training)?;
+        let samples = balanced(&raw, white_integrals);
         let FitTargets { reference, targets } = targets?;
         let (white, srgb_from_xyz) = (reference.lab_white, reference.srgb_from_xyz);
         Ok(Self { samples, targets: targets.clone(), white, srgb_from_xyz, white_integrals })
@@ -423,12 +434,13 @@ fn fitted(
     correction: &Correction,
 ) -> Result<Rendering, RenderingError> {
     // The sensor first: a light that neither sees is the sensor's own trouble.
-    let (samples, integrals, conditioning) = balanced(sensor, light, training)?;
+    let (raw, integrals, conditioning) = training_integrals(sensor, light, training)?;
     let targets = targets?;
     check_lobes(sensor, correction.method)?;
-    let transform = targets.fit(&samples, correction)?;
+    let transform = targets.fit(&balanced(&raw, integrals), correction)?;
     let is_rgb = matches!(sensor.primaries(), Primaries::Camera | Primaries::Rgb);
-    Rendering::by_fit(targets, transform, DVec3::from_array(white), integrals, (conditioning, is_rgb))
+    let fitted = Rendering::by_fit(targets, transform, DVec3::from_array(white), integrals, (conditioning, is_rgb))?;
+    Ok(Rendering { training: Some(raw), ..fitted })
 }
 
 /// Refuses roots for a sensor with a sensitivity below zero.

@@ -11,6 +11,7 @@ use crate::ask::{Ask, Query, Shared};
 use crate::patches::{FitTargetsQuery, PatchColor, PatchColorsQuery};
 use chromascope_color::camera::curve_spread::{Deviation, LANES, SITES, SiteResponses, site_curve, site_responses};
 use chromascope_color::camera::quality::{IndexSamples, ObserverSpace, SpaceQuality, curves};
+use chromascope_color::camera::rendering::balanced;
 use chromascope_color::camera::{FitTargets, LocusDeviation, ReferenceLocus, Rendering, RenderingError};
 use chromascope_color::correction::classes::ClassWeights;
 use chromascope_color::correction::minimize::Refit;
@@ -158,10 +159,16 @@ fn along(of: &[Vec<f64>; 3], basis: &[Vec<f64>], count: usize) -> Vec<DVec3> {
 }
 
 impl Stimuli {
-    /// Responses of a sensor to all stimuli.
-    fn raw(&self, sensor: &Sensor) -> Vec<DVec3> {
+    pub(super) fn blackbody(&self) -> &[f64; COUNT] {
+        &self.spectra[BLACKBODY]
+    }
+
+    /// Responses of a sensor to all stimuli, given those to the training reflectances where they are known.
+    fn raw(&self, sensor: &Sensor, training: Option<&[DVec3]>) -> Vec<DVec3> {
+        let spectra = training.map_or(&self.spectra[..], |_| &self.spectra[..self.training]);
         let mut raw: Vec<DVec3> =
-            self.spectra.iter().map(|spectrum| DVec3::from_array(sensor.integrate(spectrum))).collect();
+            spectra.iter().map(|spectrum| DVec3::from_array(sensor.integrate(spectrum))).collect();
+        raw.extend(training.unwrap_or_default());
         if let Some(fewer) = &self.fewer {
             let own = channels(&raw.split_off(self.training));
             // What the sensor's own responses add to the basis has places of its own.
@@ -214,10 +221,10 @@ impl<'a> Perturbed<'a> {
         ask: &impl Ask,
     ) -> Option<Self> {
         let sensor = &of.rendering.sensor;
-        let raw = stimuli.raw(sensor);
         let (reference, patches) = (of.reference.clone(), of.patches.clone());
         let rendering = ask.ask(&of.rendering);
         let rendering = (*rendering).as_ref().ok()?;
+        let raw = stimuli.raw(sensor, rendering.training.as_deref());
         let index = ask.ask(&IndexSamplesQuery(of.index.clone()));
         let curves = [0, 1, 2].map(|c: usize| sensor.on_grid(c).iter().map(|value| value / peaks[c]).collect());
         let mut found = Self {
@@ -260,19 +267,20 @@ impl<'a> Perturbed<'a> {
         balanced(&raw[self.stimuli.index.clone()], raw[INDEX_LIGHT])
     }
 
-    pub(super) fn values(&self, deviation: &Deviation) -> Vec<Result<f64, WhyNot>> {
-        let mut raw = self.raw.clone();
+    /// Metrics under a deviation; the list is memory for its responses.
+    pub(super) fn values(&self, deviation: &Deviation, raw: &mut Vec<DVec3>) -> Vec<Result<f64, WhyNot>> {
+        raw.clone_from(&self.raw);
         for (raw, [red, green, blue]) in raw.chunks_mut(LANES).zip(self.stimuli.of_sites.of(deviation)) {
             for (lane, raw) in raw.iter_mut().enumerate() {
                 *raw += self.peaks * DVec3::new(red[lane], green[lane], blue[lane]);
             }
         }
-        self.metrics(&raw, || self.space(deviation))
+        self.metrics(raw, || self.space(deviation))
     }
 
     /// Metrics through another table of the camera.
     pub(super) fn values_through(&self, sensor: &Sensor) -> Vec<Result<f64, WhyNot>> {
-        self.metrics(&self.stimuli.raw(sensor), || self.stimuli.observer.as_ref()?.quality(&curves(sensor)))
+        self.metrics(&self.stimuli.raw(sensor, None), || self.stimuli.observer.as_ref()?.quality(&curves(sensor)))
     }
 
     /// Some spectra that the camera's responses to all but determine its metrics: its own curves, the observer's, single stimuli and some of
@@ -378,9 +386,4 @@ impl<'a> Perturbed<'a> {
         };
         (0..CameraMetric::ALL.len()).map(part).collect()
     }
-}
-
-/// Responses over those to white.
-fn balanced(raw: &[DVec3], white: DVec3) -> Vec<DVec3> {
-    raw.iter().map(|raw| *raw / white).collect()
 }

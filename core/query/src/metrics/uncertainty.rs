@@ -1,5 +1,6 @@
 //! Uncertainty of metrics: the spread of sensitivities between laboratories, propagated through the camera's own curves.
 
+use super::evidence;
 use super::perturbed::{Perturbed, StimuliQuery};
 use super::stimulus::{LightUncertainty, bands};
 use super::table::{CameraMetric, MetricGroup};
@@ -8,12 +9,8 @@ use crate::ask::{Ask, Query, Shared};
 use crate::patches::RenderingQuery;
 use chromascope_color::camera::curve_spread::{Deviation, at_sites};
 use chromascope_color::camera::{ChannelRatio, CurveSpread};
-use chromascope_color::light::RadiationConstants;
-use chromascope_color::light::planckian::black_body;
 use chromascope_color::spectral::grid::COUNT;
-use chromascope_color::spectral::{
-    Evidence, GridSpectrum, Primaries, Response, Sensor, SpectralDistribution, StatedUncertainty,
-};
+use chromascope_color::spectral::{Evidence, Primaries, Response, Sensor, SpectralDistribution, StatedUncertainty};
 
 /// Student's t for 95 % and the 14 degrees of freedom of the spread.
 const T_95: f64 = 2.144_787;
@@ -122,7 +119,8 @@ impl Query for MetricUncertaintiesQuery {
         let is_own = of_camera.is_some();
         let of_prior = || {
             let draws = ask.ask(&DrawsQuery(self.spread.clone()));
-            let values = draws.iter().map(|draw| perturbed.values(&clipped(draw, &own)));
+            let mut raw = Vec::new();
+            let values = draws.iter().map(|draw| perturbed.values(&clipped(draw, &own), &mut raw));
             let of_prior = |spread: Option<_>| spread.map(|spread| (spread, UncertaintySource::Prior));
             Some(spreads(values.map(Some), &nominal.values, ask)?.into_iter().map(of_prior).collect())
         };
@@ -137,7 +135,7 @@ impl Query for MetricUncertaintiesQuery {
         let part = |of: &Option<Vec<Found>>, at: usize| of.as_ref().and_then(|of| of[at]).map_or(0.0, |((u, _), _)| u);
         let [first, last] = sensor.support_nm();
         let is_unlike = if is_own { first > 400.0 || last < 700.0 } else { !self.spread.is_of_kind(&own) };
-        let outside = if is_own { [0.0; 4] } else { outside(of) };
+        let outside = if is_own { [0.0; 4] } else { outside(of, stimuli.blackbody()) };
         let (camera, of_light) = (self.own.camera.as_deref(), self.own.light.as_ref().map(|of| &of.stated));
         let stated = [camera, self.own.patches.as_deref(), of_light].into_iter().flatten();
         let stated = stated.map(StatedUncertainty::coverage).fold(NORMAL_95, f64::max);
@@ -233,12 +231,14 @@ impl MetricUncertaintiesQuery {
         let other = Some(()).filter(|()| wrong > 0.0).and_then(|()| other_response(&self.metrics.rendering.sensor));
         let Some(sensor) = other else { return vec![0.0; nominal.len()] };
         let rendering = RenderingQuery { sensor: Shared::new(sensor), ..self.metrics.rendering.clone() };
-        let other = ask.ask(&CameraMetricsQuery { rendering, ..self.metrics.clone() });
+        let other = CameraMetricsQuery { rendering, ..self.metrics.clone() };
+        // Values alone: nothing shows the patches through it.
+        let other = evidence::Evidence::new(&other, ask).values(other.wanted);
         let part = |(a, b): (&Result<f64, WhyNot>, &Result<f64, WhyNot>)| match (a, b) {
             (Ok(a), Ok(b)) => wrong.sqrt() * (a - b).abs(),
             _ => 0.0,
         };
-        nominal.iter().zip(&other.values).map(part).collect()
+        nominal.iter().zip(&other).map(part).collect()
     }
 }
 
@@ -261,23 +261,20 @@ fn clipped(draw: &Deviation, own: &Deviation) -> Deviation {
 }
 
 /// Largest share of a channel's response outside 400–700 nm in what the metrics of each group use.
-fn outside(of: &CameraMetricsQuery) -> [f64; 4] {
-    let blackbody = black_body(of.temperature, RadiationConstants::Paper);
-    let equal = GridSpectrum::constant(1.0);
-    MetricGroup::ALL.map(|group| {
-        let light = match group {
-            MetricGroup::Differences | MetricGroup::Noise => &*of.rendering.light,
-            MetricGroup::Locus => &blackbody,
-            MetricGroup::Sensitivities => &equal,
-        };
+fn outside(of: &CameraMetricsQuery, blackbody: &[f64; COUNT]) -> [f64; 4] {
+    let [light, blackbody, equal] = [of.rendering.light.values(), blackbody, &[1.0; COUNT]].map(|light| {
         let share = |channel: usize| {
             let weighted = of.rendering.sensor.weighted(channel);
-            let power =
-                |range: std::ops::Range<usize>| -> f64 { range.map(|i| (weighted[i] * light.values()[i]).abs()).sum() };
+            let power = |range: std::ops::Range<usize>| -> f64 { range.map(|i| (weighted[i] * light[i]).abs()).sum() };
             let [first, last] = chromascope_color::camera::curve_spread::SITE_RANGE;
             1.0 - power(first..last + 1) / power(0..COUNT).max(f64::MIN_POSITIVE)
         };
         [0, 1, 2].map(share).into_iter().fold(0.0, f64::max)
+    });
+    MetricGroup::ALL.map(|group| match group {
+        MetricGroup::Differences | MetricGroup::Noise => light,
+        MetricGroup::Locus => blackbody,
+        MetricGroup::Sensitivities => equal,
     })
 }
 
