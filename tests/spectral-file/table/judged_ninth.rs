@@ -214,7 +214,7 @@ fn words_for_lights_and_axes() {
     assert_eq!((photons.role.value, names(&photons)), (Role::Illuminant, vec!["Red", "Blue"]));
     assert_eq!(of("nm,Geranium_G_W_1,a_w").role.value, Role::Unknown);
     assert_eq!(of("nm,absorption,emission").role.certainty, Certainty::Open);
-    let dutch = ok(&format!("Golfgetal;R\n{}", lines(|nm| format!("{}0;0.5\n", nm))));
+    let dutch = ok(&format!("Golfgetal;R\n{}", lines(|nm| format!("{nm}0;0.5\n"))));
     assert_eq!(dutch.reading.wavelength_unit.value, WavelengthUnit::Wavenumber);
     let lamp = format!("Illuminant_index;3\nirradiance_unit;0\nnm;Raw\n{}", lines(|nm| format!("{nm};0.5\n")));
     assert_eq!(ok(&lamp).role.value, Role::Unknown);
