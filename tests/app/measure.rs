@@ -471,7 +471,8 @@ fn pictures_of_bands_become_a_camera() {
     window.state_mut().open_at_start(vec![first.clone(), second]);
     until(&mut window, "Saturated, skipped and filled from the library's tables: blue at 410, 420, 430, 440 nm");
     let pass = "Pass 1: pass1.csv, 31 bands: means of 12 × 10 pixels at 18, 15 of each picture";
-    assert!(window.query_by_label(pass).is_some() && can(&window, ADD));
+    until(&mut window, pass);
+    assert!(can(&window, ADD));
     let document = window.state().history.document().clone();
     assert_eq!(document.measurement.clip, Some(65535.0), "the end of the scale is that of the pictures");
     let stated = std::fs::read_to_string(&first).unwrap();

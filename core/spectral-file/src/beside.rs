@@ -66,10 +66,14 @@ pub(super) fn take(source: Source<'_>, grid: &mut Grid) {
         let line = header.x_unit.map_or(header.line, |(line, _)| Some(line));
         (header.x_unit, grid.label_unit) = (Some((line.unwrap_or(1), XUnit::Other)), None);
     }
-    // `Au-Ovidio-eV`: energies of photons.
-    let says_energies = |stem: &str| stem.split(|c: char| !c.is_alphanumeric()).any(|word| word == "eV");
-    if file_stem(source.path).is_some_and(says_energies) && grid.unit.is_none() && header.x_unit.is_none() {
-        header.x_unit = Some((header.line.unwrap_or(1), XUnit::Other));
+    // `Au-Ovidio-eV`, `flux_angstroms`
+    let says = |word: &str| {
+        file_stem(source.path).is_some_and(|stem| stem.split(|c: char| !c.is_alphanumeric()).any(|part| part == word))
+    };
+    if grid.unit.is_none() && header.x_unit.is_none() {
+        header.x_unit = says("eV").then(|| (header.line.unwrap_or(1), XUnit::Other));
+        let angstroms = says("angstrom") || says("angstroms") || says("Angstrom") || says("Angstroms");
+        grid.unit = angstroms.then(|| Decided::guess(WavelengthUnit::Angstrom, "The file is named so"));
     }
     let clues = &mut grid.header.clues;
     clues.quantum = stem.iter().any(|word| is_one(word, "qe|eqe|quantum"));

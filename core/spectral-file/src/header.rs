@@ -128,24 +128,10 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
         // Two are prose, unless each has a unit.
         let united = |names: &str| names.ends_with([')', ']']);
         let text = body.unwrap_or(line);
-        // LabSpec's wave numbers are shifts.
-        header.raman |= has_word(&lower(text), "raman") || text.starts_with("AxisUnit[1]=");
-        if let Some(name) = text.strip_prefix("Data from ").and_then(|rest| rest.trim_end().strip_suffix(" Node")) {
-            header.note(number, "title", name.trim_end_matches(".txt"));
-        }
-        // The database's spectra are over Raman shifts, wave numbers of the infrared or angles.
+        header.take_of_program(number, text, &near);
         // Spextool's spectra of NASA's Infrared Telescope Facility name no columns.
         if text.contains("Xspextool") && named_above.is_none() && (3..=SPEXTOOL.len()).contains(&layout.width) {
             named_above = Some((number, SPEXTOOL[..layout.width].iter().map(|&name| name.to_owned()).collect()));
-        }
-        // CRAIC's program writes the sample, and what was measured, above its settings.
-        if text.starts_with("SciMode:")
-            && let [(_, sample), _] = near.as_slice()
-        {
-            header.note(number, "title", sample);
-        }
-        if text.contains("rruff.info") {
-            header.x_unit = Some((number, XUnit::Other));
         }
         if named_above.is_none() && (layout.width > 2 || united(text)) {
             let names = names::split_otherwise(layout, text).filter(|names| layout.width > 2 || united(&names[0]));
@@ -247,6 +233,25 @@ fn unmarked(line: &str) -> &str {
 }
 
 impl Header {
+    /// Takes what only lines of some programs and databases say.
+    fn take_of_program(&mut self, number: usize, text: &str, near: &[(usize, &str)]) {
+        // LabSpec's wave numbers are shifts.
+        self.raman |= has_word(&lower(text), "raman") || text.starts_with("AxisUnit[1]=");
+        if let Some(name) = text.strip_prefix("Data from ").and_then(|rest| rest.trim_end().strip_suffix(" Node")) {
+            self.note(number, "title", name.trim_end_matches(".txt"));
+        }
+        // CRAIC's program writes the sample, and what was measured, above its settings.
+        if text.starts_with("SciMode:")
+            && let [(_, sample), _] = near
+        {
+            self.note(number, "title", sample);
+        }
+        // The database's spectra are over Raman shifts, wave numbers of the infrared or angles.
+        if text.contains("rruff.info") {
+            self.x_unit = Some((number, XUnit::Other));
+        }
+    }
+
     pub(super) fn take_comment(&mut self, line: usize, key: &str, value: &str) {
         /// Keys of what the values are, if a quantity and a unit stand behind them.
         const MEASURED_TOO: &str = "data|data type|value|values|y|signal|spectrum|spectra|column|columns";
@@ -351,7 +356,11 @@ impl Header {
         }
         // Woollam's files have the unit in a line of its own.
         let alone = WavelengthUnit::from_symbol(text.trim()).map(XUnit::Wavelength);
-        let alone = alone.or_else(|| text.trim().eq_ignore_ascii_case("ev").then_some(XUnit::Other));
+        // `Hbar Omega (eV)  Decay rate`
+        let begins_with_energy = |(name, _): (&str, &str)| name.split_whitespace().count() <= 2 && !name.contains(',');
+        let is_energy =
+            text.trim().eq_ignore_ascii_case("ev") || text.split_once("(eV)").is_some_and(begins_with_energy);
+        let alone = alone.or_else(|| is_energy.then_some(XUnit::Other));
         self.x_unit = self.x_unit.or(alone.map(|unit| (line, unit)));
         if let Some(name) = stated_name(text).filter(|_| self.comment("title").is_none()) {
             self.note(line, "title", name);

@@ -196,7 +196,7 @@ pub enum Warning {
     #[error("The file says percent, but no value exceeds {0}: if they are fractions, choose plain numbers")]
     SmallPercent(String),
     /// A column of one number, which may mark rows.
-    #[error("{first}{} is {value} at all wavelengths", and_more(*.count))]
+    #[error("{first} is {value} at all wavelengths{}", if *.count > 1 { format!("; constant too: {} more", .count - 1) } else { String::new() })]
     Constant { count: usize, first: String, value: f64 },
     /// Nothing names the column of the wavelengths. Holds it, from 1.
     #[error("The numbers of column {0} are in order, as wavelengths are: taken for these")]

@@ -221,6 +221,10 @@ fn words_for_lights_and_axes() {
     let energies =
         read(Source { path: "Au-eV.txt", ..Source::from("0.6 1.5\n0.8 1.6\n1.1 1.7\n") }, &ReadOptions::default());
     assert!(matches!(energies, Err(ReadError::NotWavelengths(_))));
+    let energies = "% Hbar Omega (eV) Decay rate\n1.0 0.2\n1.5 0.3\n2.1 0.4\n";
+    assert!(matches!(error(energies), ReadError::NotWavelengths(1)));
+    assert_eq!(of_file("sky_angstroms.txt", "2500 1\n2600 2\n2700 3\n").reading.range_nm, [250.0, 270.0]);
+    assert_eq!(names(&ok(&format!("Lambda\tH2O\nnm\tcm-1*mM-1\n{}", rows("\t")))), ["H2O"]);
     let named = format!("## Type: detector\n## Name: Orca\nwavelength,qe\n{}", lines(|nm| format!("{nm},0.5\n")));
     assert_eq!(names(&ok(&named)), ["Orca"]);
 }

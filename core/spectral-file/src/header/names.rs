@@ -436,5 +436,6 @@ fn looks_like_unit(cell: &str) -> bool {
             || cell.starts_with(['[', '('])
             || (cell.contains(['%', '/']) && !begins_with_figure(cell))
             || unit_text::is_quotient(cell)
+            || cell.starts_with("cm-1")
             || is_one(&cell.to_ascii_lowercase(), "a.u.|counts|1|-|dimensionless|unitless"))
 }
