@@ -11,8 +11,9 @@ use crate::units::{RANGE_NM, plausible};
 /// The fewest bands that are taken for a spectrum.
 pub(super) const FEWEST: usize = 5;
 
-/// The fewest before words that say nothing of them: numbers may count samples or their settings, too.
-const FEWEST_SUFFIXED: usize = 30;
+/// The fewest that are wavelengths although a word behind them says nothing of it, or a few are out of range: fewer may count samples
+/// or their settings.
+const FEWEST_UNSAID: usize = 30;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Band<'a> {
@@ -179,7 +180,7 @@ pub(super) fn groups(dialect: Dialect, line: &str) -> Vec<Group> {
                 // Numbers that go up and down are values, unless a second spectrum begins where the first did, or one number
                 // stands behind many.
                 let plain = band.prefix.is_empty() && band.suffix.is_empty();
-                let lone = index + 1 == bands.len() && run.len() > FEWEST_SUFFIXED;
+                let lone = index + 1 == bands.len() && run.len() > FEWEST_UNSAID;
                 if plain && !lone && beside && begun != Some(band.wavelength) {
                     return Vec::new();
                 }
@@ -264,14 +265,14 @@ fn group(run: &[(usize, Band<'_>)], wrong: usize, stated: Option<WavelengthUnit>
         let (a, b) = (unit.nanometers(min), unit.nanometers(max));
         a.max(b) > *RANGE_NM.start() && a.min(b) < *RANGE_NM.end()
     });
-    let many = run.len() > FEWEST_SUFFIXED && first.prefix.is_empty() && first.suffix.is_empty();
+    let many = run.len() > FEWEST_UNSAID && first.prefix.is_empty() && first.suffix.is_empty();
     let mostly = || SOUND * values().filter(|nm| !RANGE_NM.contains(nm)).count() < run.len();
     let in_range = in_range || many && wrong == 0 && min > 0.0 && mostly();
     if !in_range && !plausible(min, max, values().any(|w| w.fract() != 0.0)) || run.len() < SOUND * wrong {
         return None;
     }
     let said = || first.unit.is_some() || header_terms::role_of_bands(first.suffix).is_some();
-    if first.prefix.is_empty() && !first.suffix.is_empty() && run.len() < FEWEST_SUFFIXED && !said() {
+    if first.prefix.is_empty() && !first.suffix.is_empty() && run.len() < FEWEST_UNSAID && !said() {
         return None;
     }
     // What a letter may count as well, such as patches or bands, counts by ones.

@@ -357,7 +357,9 @@ impl Header {
         // Woollam's files have the unit in a line of its own.
         let alone = WavelengthUnit::from_symbol(text.trim()).map(XUnit::Wavelength);
         // `Hbar Omega (eV)  Decay rate`
-        let begins_with_energy = |(name, _): (&str, &str)| name.split_whitespace().count() <= 2 && !name.contains(',');
+        let begins_with_energy = |(name, _): (&str, &str)| {
+            name.split_whitespace().count() <= 2 && !name.contains(',') && !lower(text).contains("wavelength")
+        };
         let is_energy =
             text.trim().eq_ignore_ascii_case("ev") || text.split_once("(eV)").is_some_and(begins_with_energy);
         let alone = alone.or_else(|| is_energy.then_some(XUnit::Other));

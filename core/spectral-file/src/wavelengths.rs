@@ -283,7 +283,7 @@ pub(super) fn warn(grid: &Grid, step: Steps, unit: WavelengthUnit, log: &mut Log
 
 fn median(mut numbers: Vec<f64>) -> f64 {
     numbers.sort_unstable_by(f64::total_cmp);
-    numbers[numbers.len() / 2]
+    numbers.get(numbers.len() / 2).copied().unwrap_or(0.0)
 }
 
 /// Leaves one of rows that are the same, and the mean of rows that differ at one wavelength.

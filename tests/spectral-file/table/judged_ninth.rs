@@ -202,6 +202,7 @@ fn warnings_are_of_what_the_file_has() {
     // Even steps of wave numbers, and a filter for what is not seen.
     let even = format!("cm-1,R\n{}", lines(|nm| format!("{},0.5\n", 10 * nm)));
     assert!(!ok(&even).warnings.iter().any(|warning| matches!(warning, Warning::Hole { .. })));
+    assert_eq!(error("Frequency (THz),R\n700,0.5\n700,0.5\n"), ReadError::TooFewSamples(2));
     let filter = |nm: usize| format!("{},{}\n", nm - 50, if nm < 430 { 50 } else { 0 });
     let table = ok(&format!("nm,%T\n{}", lines(filter)));
     assert!(!table.warnings.iter().any(|warning| matches!(warning, Warning::SmallPercent(_))), "{:?}", table.warnings);

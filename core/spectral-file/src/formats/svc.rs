@@ -1,5 +1,5 @@
-//! Field spectrometers of Spectra Vista, before called GER (`.sig`): `key= value` lines, then `data=` and rows of a wavelength, the radiances of the
-//! reference and of the target, and their ratio in percent. Ranges of detectors may overlap.
+//! Field spectrometers of Spectra Vista, before called GER (`.sig`): `key= value` lines, then `data=` and rows of a wavelength, the
+//! radiances of the reference and of the target, and their ratio in percent. Ranges of detectors may overlap.
 
 use crate::decision::{Decided, DecimalMark, Decision, Delimiter, Quantity, Reader, Role, Values, WavelengthUnit};
 use crate::error::ReadError;
