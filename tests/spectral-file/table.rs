@@ -15,6 +15,7 @@ mod judged_more;
 mod judged_ninth;
 mod judged_seventh;
 mod judged_sixth;
+mod judged_tenth;
 mod judged_third;
 mod light_units;
 mod limits;
@@ -26,7 +27,7 @@ mod uncertainties;
 
 use spectral_file::{
     BinaryKind, Certainty, Curve, DecimalMark, Delimiter, Dropped, Encoding, Family, MAX_BYTES, Orientation, ReadError,
-    ReadOptions, Role, SpectralFile, Values, Warning, WavelengthUnit, read,
+    ReadOptions, Role, Source, SpectralFile, Values, Warning, WavelengthUnit, read,
 };
 
 fn ok(text: &str) -> SpectralFile {
@@ -51,6 +52,15 @@ pub(crate) fn rows(separator: &str) -> String {
 
 fn samples(curve: &Curve) -> Vec<(f64, f64)> {
     curve.wavelengths_nm.iter().copied().zip(curve.values.iter().copied()).collect()
+}
+
+/// Forty rows, of wavelengths from 400 on.
+fn lines(of: impl Fn(usize) -> String) -> String {
+    (400..440).map(of).collect::<Vec<_>>().concat()
+}
+
+fn of_file(path: &str, text: &str) -> SpectralFile {
+    read(Source { path, ..Source::from(text) }, &ReadOptions::default()).unwrap_or_else(|error| panic!("{error}"))
 }
 
 pub(crate) fn names(table: &SpectralFile) -> Vec<&str> {

@@ -4,7 +4,7 @@ use crate::decision::{Decided, Role, WavelengthUnit};
 use crate::grid::Grid;
 use crate::header_terms::XUnit;
 use crate::text::{excerpt, is_one};
-use crate::uncertainty_terms;
+use crate::{header_terms, uncertainty_terms};
 
 /// Endings, after the whole name of a table, of files with its metadata: of the CIE, and of the W3C's CSV on the Web.
 pub const METADATA: [&str; 2] = ["_metadata.json", "-metadata.json"];
@@ -38,8 +38,14 @@ pub(super) fn take(source: Source<'_>, grid: &mut Grid) {
     let fits = |beside: &Decided<Role>| {
         (!constants || beside.value == Role::Unknown) && (!fluorescence || beside.value == Role::Illuminant)
     };
-    grid.beside = grid.beside.take().or_else(|| of_path(source.path, names_other).filter(fits));
     let stem = file_stem(source.path).map(words).unwrap_or_default();
+    // A filter or a display is of some maker of cameras too, but has not three curves without names.
+    let is_camera = || (3..=4).contains(&grid.curves.len()) && stem.iter().any(|word| is_one(word, CAMERA_MAKERS));
+    let of_maker = || {
+        let why = format!("The file is named after a maker of cameras, “{}”", excerpt(file_stem(source.path)?));
+        is_camera().then(|| Decided::guess(Role::Camera, why))
+    };
+    grid.beside = grid.beside.take().or_else(|| of_path(source.path, names_other).filter(fits)).or_else(of_maker);
     let folder = source.path.rsplit(['/', '\\']).nth(1).map(words).unwrap_or_default();
     let says_absorbance = |words: &[String]| words.iter().any(|word| word.starts_with("absorban"));
     let is_absorbance =
@@ -47,6 +53,8 @@ pub(super) fn take(source: Source<'_>, grid: &mut Grid) {
     let is_absorbance = is_absorbance && grid.beside.as_ref().is_some_and(|beside| beside.value == Role::Transmittance);
     let clues = &mut grid.header.clues;
     clues.absorbance = clues.absorbance.or(is_absorbance.then_some(0));
+    let has_role = grid.beside.as_ref().is_none_or(|beside| beside.value != Role::Unknown);
+    clues.other = clues.other.or_else(|| Some((0, header_terms::not_converted(&stem.join(" "))?))).filter(|_| has_role);
     clues.uncertainties = clues.uncertainties.or(uncertainty_terms::is_title(&stem.join(" ")).then_some(0));
     // Axes of Raman spectra are shifts, which number no wavelengths.
     let folders: Vec<&str> = source.path.rsplit(['/', '\\']).take(5).collect();
@@ -57,7 +65,9 @@ pub(super) fn take(source: Source<'_>, grid: &mut Grid) {
     let is_raman = (0..folders.len().min(4)).any(names_raman);
     let header = &mut grid.header;
     let column = grid.wavelength_column.unwrap_or(1).saturating_sub(1);
-    let says_wavelengths = header.name(column).is_some_and(|name| name.to_lowercase().contains("wavelength"));
+    let is_wavelength =
+        |name: &str| header_terms::begins_with_wavelengths(name) && !name.to_lowercase().contains("number");
+    let says_wavelengths = header.name(column).is_some_and(is_wavelength);
     if is_raman
         && !says_wavelengths
         && grid.unit.is_none()
@@ -70,14 +80,17 @@ pub(super) fn take(source: Source<'_>, grid: &mut Grid) {
     let says = |word: &str| {
         file_stem(source.path).is_some_and(|stem| stem.split(|c: char| !c.is_alphanumeric()).any(|part| part == word))
     };
+    let is_angstrom = || stem.iter().any(|word| is_one(word, "angstrom|angstroms"));
     if grid.unit.is_none() && header.x_unit.is_none() {
         header.x_unit = says("eV").then(|| (header.line.unwrap_or(1), XUnit::Other));
-        let angstroms = says("angstrom") || says("angstroms") || says("Angstrom") || says("Angstroms");
-        grid.unit = angstroms.then(|| Decided::guess(WavelengthUnit::Angstrom, "The file is named so"));
+        grid.unit = is_angstrom().then(|| Decided::guess(WavelengthUnit::Angstrom, "The file is named so"));
     }
     let clues = &mut grid.header.clues;
     clues.quantum = stem.iter().any(|word| is_one(word, "qe|eqe|quantum"));
 }
+
+const CAMERA_MAKERS: &str =
+    "canon|nikon|sony|fuji|fujifilm|olympus|pentax|leica|panasonic|hasselblad|ricoh|iphone|gopro";
 
 fn file_stem(path: &str) -> Option<&str> {
     let file = path.rsplit(['/', '\\']).next()?;
@@ -87,10 +100,10 @@ fn file_stem(path: &str) -> Option<&str> {
 /// The role that the name of a file suggests, else that of the folder it is in, unless the file itself names something else.
 fn of_path(path: &str, names_other: bool) -> Option<Decided<Role>> {
     let stem = file_stem(path)?;
-    let mut names = path.rsplit(['/', '\\']).skip(1);
-    let folder = names.find(|name| !name.is_empty()).map(|name| ("folder", name));
-    let (what, name, (role, agree)) =
-        std::iter::once(("file", stem)).chain(folder).find_map(|(what, name)| Some((what, name, of_name(name)?)))?;
+    // Folders further up are of a whole project: the glass of a camera's lens is below its name, too.
+    let folder = path.rsplit(['/', '\\']).skip(1).find(|name| !name.is_empty());
+    let mut names = std::iter::once(("file", stem)).chain(folder.map(|name| ("folder", name)));
+    let (what, name, (role, agree)) = names.find_map(|(what, name)| Some((what, name, of_name(name)?)))?;
     if what == "folder" && names_other && role != Role::Unknown {
         return None;
     }
@@ -121,10 +134,14 @@ fn of_name(name: &str) -> Option<(Role, bool)> {
     if let Some(at) = words.windows(2).position(|pair| pair == ["lamp", "black"]) {
         words.remove(at);
     }
-    let short = name.to_lowercase().replace(['_', '-', '.', ' '], "");
+    let joined = |name: &str| name.to_lowercase().replace(['_', '-', '.', ' '], "");
+    let short = joined(name);
     // AM012 is a number of a sample.
     let ends = |rest: &str| !rest.starts_with(|c: char| c.is_ascii_digit());
-    let is_solar = ["am0", "am15", "astmg173"].iter().any(|sun| short.strip_prefix(sun).is_some_and(ends));
+    let starts = std::iter::once(name).chain(name.match_indices(['_', '-', '.', ' ']).map(|(at, _)| &name[at + 1..]));
+    let starts: Vec<String> = starts.map(joined).collect();
+    let is_sun = |sun: &&str| starts.iter().any(|start| start.strip_prefix(*sun).is_some_and(ends));
+    let is_solar = ["am0", "am15", "astmg173"].iter().any(|sun| is_sun(&sun));
     let is_solar = is_solar || ["solarspectr", "sunspectr", "spectrumofthesun"].iter().any(|sun| short.contains(sun));
     let told = is_solar.then_some(Role::Illuminant);
     let is_observer = ["ciexyz", "xyz2e", "xyz10e", "linss"].iter().any(|observer| short.contains(observer));
@@ -166,7 +183,7 @@ fn role_of_word(word: &str) -> Option<Role> {
         (
             Role::Camera,
             "sensitiv|responsiv|quantum|efficien|camera",
-            "ssf|ssfs|camspec|qe|eqe|iqe|cmf|cmfs|cmos|response|responses|photopic|scotopic|melanopic|observer|observers",
+            "ssf|ssfs|srf|srfs|rsr|camspec|qe|eqe|iqe|cmf|cmfs|cmos|response|responses|photopic|scotopic|melanopic|observer|observers",
         ),
     ];
     let starts = |starts: &str| starts.split('|').any(|start| word.starts_with(start));

@@ -109,6 +109,8 @@ pub(super) struct Run {
     pub(super) last: f64,
     rises: usize,
     falls: usize,
+    /// The largest step by which they fall.
+    back: f64,
     min: f64,
     max: f64,
     fractions: bool,
@@ -129,6 +131,17 @@ impl Run {
         self.looks_like_wavelengths()
             || (back > 0 && back == self.restarts && self.steady() + back + 1 == rows && rows > 3 * back)
                 && self.is_plausible()
+    }
+
+    /// True for points read off a plot, which repeat some wavelengths and go back a little.
+    pub(super) fn looks_read_off(&self) -> bool {
+        const MOST_EQUAL: usize = 10;
+        const MOST_BACK: f64 = 50.0;
+        self.rows > 2 * MOST_EQUAL
+            && MOST_EQUAL * (self.rows - 1 - self.steady()) < self.rows
+            && self.rises > self.falls
+            && MOST_BACK * self.back < self.max - self.min
+            && self.is_plausible()
     }
 
     fn is_plausible(&self) -> bool {
@@ -153,6 +166,7 @@ impl Run {
         }
         self.rises += usize::from(value > self.last);
         self.falls += usize::from(value < self.last);
+        self.back = self.back.max(self.last - value);
         self.min = self.min.min(value);
         self.max = self.max.max(value);
         self.fractions |= value.fract() != 0.0;
@@ -317,7 +331,9 @@ impl Trial {
             self.heads = if shape.numbers == 0 { shape.filled } else { self.heads };
             self.across_tested = shape.numbers >= bands::FEWEST || !groups.is_empty();
             if !groups.is_empty() {
-                let blank = shape.gaps.trailing_ones() as usize;
+                // Eigenvector's word for a list of wavelengths, above a column of names.
+                let axis = usize::from(line.trim_start().trim_start_matches('"').starts_with("Axisscale"));
+                let blank = axis.max(shape.gaps.trailing_ones() as usize);
                 self.across = Some(Across { line: number, cells: shape.cells, blank, groups, ..Across::default() });
             }
         } else if let Some(across) = self.across.as_mut().filter(|across| across.misses <= MISSES) {

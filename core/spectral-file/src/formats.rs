@@ -1,5 +1,6 @@
 //! Formats of spectral files. A new one is a file here, with a line in [`FORMATS`].
 
+mod agf;
 mod camspec;
 mod cgats;
 #[cfg(feature = "xml")]
@@ -83,6 +84,7 @@ const FORMATS: &[Format] = &[
     camspec::FORMAT,
     svc::FORMAT,
     perkin_elmer::FORMAT,
+    agf::FORMAT,
 ];
 
 impl Reader {

@@ -129,6 +129,10 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
         let united = |names: &str| names.ends_with([')', ']']);
         let text = body.unwrap_or(line);
         header.take_of_program(number, text, &near);
+        if let Some((unit, names)) = aria_columns(text).filter(|(_, names)| names.len() == layout.width) {
+            (header.x_unit, named_above) = (Some((number, unit)), Some((number, names)));
+            continue;
+        }
         // Spextool's spectra of NASA's Infrared Telescope Facility name no columns.
         if text.contains("Xspextool") && named_above.is_none() && (3..=SPEXTOOL.len()).contains(&layout.width) {
             named_above = Some((number, SPEXTOOL[..layout.width].iter().map(|&name| name.to_owned()).collect()));
@@ -137,10 +141,13 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
             let names = names::split_otherwise(layout, text).filter(|names| layout.width > 2 || united(&names[0]));
             named_above = names.map(|names| (number, names));
         }
-        if let Some((_, name)) = described_column(text).filter(|(at, _)| *at == described.len() + 1) {
+        if let Some(name) = described_column(text, described.len() + 1) {
             described.push(name.replace('\t', " "));
             if described.len() == layout.width {
                 named_above = named_above.or_else(|| Some((number, described.clone())));
+            }
+            if !text.contains([':', '=']) {
+                continue;
             }
         }
         let line = body.map_or_else(|| whole(section, line, layout.dialect(), &mut lines), |_| line);
@@ -206,18 +213,38 @@ fn card(body: &str) -> Option<(&str, &str)> {
     Some((key, value.trim())).filter(|(_, value)| is_key && !value.is_empty())
 }
 
+/// The unit of wavelengths that a list of units begins with, and the rest: `μm, W/m2/μm`, `Angstroms (A) and erg s-1 cm-2 A-1`.
+fn listed_unit(list: &str) -> Option<(WavelengthUnit, &str)> {
+    let (unit, rest) = list.split_once(',').or_else(|| list.split_once(" and "))?;
+    Some((WavelengthUnit::from_symbol(unit.split('(').next()?.trim())?, rest.split(',').next()?.trim()))
+}
+
 /// The unit of wavelengths in the first brackets of a line of units: `[Angstrom] [erg/cm^2/s/A]`.
 fn first_unit(body: &str) -> Option<WavelengthUnit> {
     let (unit, rest) = body.trim_start().strip_prefix('[')?.split_once(']')?;
     WavelengthUnit::from_symbol(unit.trim()).filter(|_| rest.trim_start().starts_with('['))
 }
 
-/// Number and name of a column in a comment: `Column 1: wavelength nm`, `Column 2 = flux`.
-fn described_column(body: &str) -> Option<(usize, &str)> {
-    let (key, name) = body.split_once([':', '='])?;
+/// The name of the next column in a comment, by its number, or alone: `Column 1: wavelength nm`, `Column 2 = flux`, `Column flux`.
+fn described_column(body: &str, next: usize) -> Option<&str> {
+    let Some((key, name)) = body.split_once([':', '=']) else {
+        return body.strip_prefix("Column ").map(str::trim).filter(|name| name.chars().all(char::is_alphabetic));
+    };
     let (word, number) = key.trim().split_once(' ')?;
-    let number = number.trim().parse().ok().filter(|_| is_one(&lower(word), "column|col|col.|label"))?;
-    Some((number, name.trim())).filter(|(_, name)| !name.is_empty())
+    let is_next = is_one(&lower(word), "column|col|col.|label") && number.trim().parse() == Ok(next);
+    Some(name.trim()).filter(|name| is_next && !name.is_empty())
+}
+
+/// The names of columns as files of the ARIA database give them: `FORMAT = Wavn n k`, wave numbers or wavelengths in micrometers.
+fn aria_columns(body: &str) -> Option<(XUnit, Vec<String>)> {
+    let list = body.strip_prefix("FORMAT")?.trim_start().strip_prefix('=')?;
+    let names: Vec<String> = list.split_whitespace().map(str::to_owned).collect();
+    let unit = match &*lower(names.first()?) {
+        "wavn" => WavelengthUnit::Wavenumber,
+        "wavl" => WavelengthUnit::Micrometer,
+        _ => return None,
+    };
+    Some((XUnit::Wavelength(unit), names))
 }
 
 /// Name and unit of a column in the head of an ECSV: `- {name: flux, unit: W / m2, datatype: float64}`.
@@ -261,6 +288,9 @@ impl Header {
         }
         // An object of YAML is no unit of the values.
         if is_one(&lower, "unit|units|y unit|y units|yunit|yunits") && !value.starts_with(['!', '{']) {
+            let first = listed_unit(value);
+            self.x_unit = first.map(|(unit, _)| (line, XUnit::Wavelength(unit))).or(self.x_unit);
+            let value = first.map_or(value, |(_, rest)| rest);
             self.take_value_unit(line, value);
             self.unit = unit_text::unit_cell(value).filter(|unit| unit != "1").or(self.unit.take());
         } else if lower == "quantity"
@@ -344,7 +374,7 @@ impl Header {
     }
 
     fn take_prose(&mut self, line: usize, text: &str) {
-        const ABOUT_Y: &str = "y unit|yunit|yaxisunit|unit:|units:|unit,|units,|unit=|unit =|units=|units =";
+        const ABOUT_Y: &str = "y unit|y-unit|yunit|yaxisunit|unit:|units:|unit,|units,|unit=|unit =|units=|units =";
         // A setting such as `Wavenumber correction,0` gives no unit.
         let number = || text.split_once([',', ';', '\t']).is_some_and(|(_, value)| value.trim().parse::<f64>().is_ok());
         let setting = |unit: &XUnit| *unit == XUnit::Wavelength(WavelengthUnit::Wavenumber) && !text.contains("cm");
@@ -378,7 +408,7 @@ impl Header {
         let text = text.trim_start().trim_start_matches('%');
         if about_y || is_title_with_unit(text) {
             self.take_value_unit(line, text);
-            let unit = text.split_once([':', ';', ',', '=']).and_then(|(_, value)| unit_text::unit(value));
+            let unit = text.split_once([':', ';', ',', '=']).and_then(|(_, value)| unit_text::unit(bare_title(value)));
             self.unit = unit.or_else(|| unit_text::unit(bare_title(text))).or(self.unit.take());
         }
         // A line such as `Mode/Unit-->,Irradiance[µWatt/cm²]`.
@@ -388,9 +418,9 @@ impl Header {
             self.unit = unit_text::unit(value).or(self.unit.take());
         }
         self.calibration |= header_terms::says_calibration(text);
-        // ASD's files are named after what was meant to be measured.
-        let is_path = text.contains(".asd");
-        if let Some(role) = header_terms::role_in_prose(text).filter(|_| !self.calibration && !is_path) {
+        // ASD's files are named after what was meant to be measured; `0=Reflectance, 1=…` are all the types there are.
+        let is_other = text.contains(".asd") || text.contains("0=") && text.contains("1=");
+        if let Some(role) = header_terms::role_in_prose(text).filter(|_| !self.calibration && !is_other) {
             (self.mentioned, self.earlier) = (Some((line, role)), self.mentioned);
             let told = role == Role::Illuminant || role.is_fraction();
             if header_terms::quantity(text).is_some() && told && self.measured[1].is_none() {

@@ -107,6 +107,13 @@ fn says_absorbance(lower: &str) -> bool {
         || ((short() || abs()) && !says_percent(lower))
 }
 
+/// Returns whether a name is that of the logarithm of a quantity or of a channel, and of no absorbance.
+fn names_logarithm(lower: &str) -> bool {
+    const OF: &str =
+        "sensitiv|respons|irradian|radian|power|intensity|flux|reflec|transmi|emission|(r)|(g)|(b)|(l)|(m)|(s)";
+    begins(lower, "log |log10|log(|lg(|log-") && has_part(lower, OF) && !says_absorbance(lower)
+}
+
 /// Reason why what a header names is read as none of the roles, with its remedy.
 pub(super) fn not_converted(text: &str) -> Option<&'static str> {
     let text = lower(text).replace('_', " ");
@@ -132,6 +139,7 @@ pub(super) fn not_converted(text: &str) -> Option<&'static str> {
         () if begins(&text, "emissivit|thermal emission") => {
             Some("An emissivity is neither a reflectance nor a transmittance")
         }
+        () if names_logarithm(&text) => Some("Logarithms are not converted: raise ten to their power first"),
         () => None,
     }
 }
@@ -245,6 +253,9 @@ pub(super) fn quantity(text: &str) -> Option<Quantity> {
     let text = spaced(text);
     if text.trim() == UNSPECIFIED {
         return Some(Quantity::Unknown);
+    }
+    if names_logarithm(&text.replace('_', " ")) {
+        return None;
     }
     // Light that something reflects or transmits is light.
     let passed = begins(&text, "reflected|transmitted") && begins(&text, "radian|irradian|spectral flux|power");
@@ -394,6 +405,9 @@ pub(super) enum XUnit {
     Other,
 }
 
+/// Words for lengths that are no wavelengths.
+const SIZES: &str = "size|diameter|radius|thickness|distance";
+
 /// The first unit of length, of wave number or of frequency in a piece of text.
 pub(super) fn x_unit(text: &str) -> Option<XUnit> {
     const SHIFTS: &str = "raman shift|raman-shift|ramanshift|rel. 1/cm|rel. cm|relative wavenumber|relative wave number|shift (cm|\
@@ -416,6 +430,10 @@ pub(super) fn x_unit(text: &str) -> Option<XUnit> {
         "1/m" | "m-1" if wave_numbers => Some(XUnit::Other),
         _ => WavelengthUnit::from_symbol(word).map(XUnit::Wavelength),
     });
+    // Of particles, and of layers.
+    if unit.is_some() && words(&text).next().is_some_and(|word| is_one(word, SIZES)) {
+        return Some(XUnit::Other);
+    }
     // A wave number in nanometers contradicts itself.
     let own =
         wave_numbers && unit == Some(XUnit::Wavelength(WavelengthUnit::Nanometer)) && !text.contains("wavelength");

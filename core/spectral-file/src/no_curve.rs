@@ -107,7 +107,7 @@ fn is_companion(curve: &RawCurve, made: bool) -> bool {
     let counts =
         header_terms::is_count(&bare) && !bare.contains(' ') && curve.values.len() > 2 && counts(&curve.values);
     // What names a quantity of light is a spectrum, whatever stands in brackets.
-    let integral = begins(&label, "cumulative|cumulated");
+    let integral = begins(&label, "cumulative|cumulated|integrated irradian|integrated radian");
     of_all || integral || (named || bracketed || counts) && header_terms::role(&curve.label).is_none()
 }
 
@@ -184,6 +184,30 @@ pub(super) fn leave_out_raw(grid: &mut Grid, options: &ReadOptions) -> Option<De
     Some(Decision::new("Columns", &decided))
 }
 
+/// Removes columns of quantities that hold only zeros beside measured ones of others: programs write them although nothing was
+/// computed, and their heads say nothing of the rest.
+pub(super) fn leave_out_uncomputed(grid: &mut Grid, log: &mut Log<'_>) {
+    let says = |curve: &RawCurve| {
+        header_terms::role(&curve.label).is_some()
+            || header_terms::values(&curve.label).is_some_and(|v| v != Values::Plain)
+    };
+    let is_zero = |curve: &RawCurve| curve.values.iter().all(|value| *value == 0.0 || value.is_nan());
+    let marks: Vec<bool> = grid.curves.iter().map(|curve| says(curve) && is_zero(curve)).collect();
+    let measured = grid.curves.iter().filter(|curve| !is_zero(curve)).collect::<Vec<_>>();
+    let Some(first) = marks.iter().position(|mark| *mark).filter(|_| !measured.is_empty()) else { return };
+    if measured.iter().any(|curve| says(curve)) {
+        return;
+    }
+    log.push(Warning::Uncomputed {
+        count: marks.iter().filter(|mark| **mark).count(),
+        first: grid.curves[first].description(),
+    });
+    if grid.header.mentioned.is_some_and(|(line, _)| grid.header.line == Some(line)) {
+        grid.header.mentioned = None;
+    }
+    retain(&mut grid.curves, &marks);
+}
+
 /// Flags for the curves that are raw; `None` if none is, or all are.
 fn raw_marks(curves: &[RawCurve]) -> Option<Vec<bool>> {
     const LETTERS: [&str; 3] = ["D", "R", "S"];
@@ -214,17 +238,17 @@ fn is_processed(curve: &RawCurve) -> bool {
     let said = header_terms::role(&curve.label).is_some()
         || header_terms::says_percent(&lower)
         || header_terms::values(&curve.label) == Some(Values::Absorbance)
-        || lower.starts_with("tgt./ref");
+        || begins(&lower, "tgt./ref|dark subtracted");
     let measured = lower.contains("count") || is_side(&lower);
     !measured && (said || curve.name.eq_ignore_ascii_case("processed"))
 }
 
 const RAW: &str =
-    "raw|dark|ref|reference|sample|scope|reference_corrected|sample_corrected|reference signal|sample signal";
+    "raw|raw data|dark|ref|reference|sample|scope|reference_corrected|sample_corrected|reference signal|sample signal";
 
 fn is_raw_name(name: &str) -> bool {
     let lower = name.to_lowercase();
-    let bare = lower.trim_end_matches(" (unitless)");
+    let bare = lower.trim_end_matches(" (unitless)").trim_end_matches(" #1");
     is_side(&lower) || is_one(bare, RAW)
 }
 

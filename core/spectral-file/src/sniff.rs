@@ -5,6 +5,7 @@ use crate::decision::{Decided, DecimalMark, Delimiter, Orientation};
 use crate::dialect::{Cell, Dialect, may_be_thousands};
 use crate::dialect_trial::{Layout, Shape, Trial};
 use crate::error::{MAX_CURVES, NearMiss, ReadError};
+use crate::header_terms;
 use crate::options::ReadOptions;
 use crate::text::{Lines, Section, comment, excerpt};
 use crate::units::plausible;
@@ -77,7 +78,7 @@ impl Sniffer<'_> {
         if rows < few && self.options.orientation != Some(Orientation::Across) {
             // Names, dates or remarks in rows: only apparent wavelengths distinguish such a table from prose.
             let mixed = self.try_all(true, budget, log)?;
-            let mixed: Vec<Trial> = mixed.into_iter().filter(|trial| trial.best.looks_like_passes()).collect();
+            let mixed: Vec<Trial> = mixed.into_iter().filter(|trial| self.may_be_spectra(trial)).collect();
             if let Some(best) = self.choose(&mixed).filter(|best| best.best.rows > 2 * rows) {
                 let orientation = Decided::or_chosen(self.options.orientation, || {
                     Decided::guess(
@@ -100,6 +101,17 @@ impl Sniffer<'_> {
             return Err(self.near_miss());
         }
         self.lay_down(best, orientation)
+    }
+
+    /// Returns whether rows with text among their numbers run over wavelengths: by their order, or by the name above most of it.
+    fn may_be_spectra(self, trial: &Trial) -> bool {
+        let run = &trial.best;
+        let above = || Lines::of(self.section).take_while(|(number, _)| *number < run.line).last();
+        let named = |(_, line): (usize, &str)| {
+            let mut cells = trial.dialect.cells(line).skip(run.texts.trailing_ones() as usize);
+            cells.next().is_some_and(header_terms::names_axis)
+        };
+        run.looks_like_passes() || run.looks_read_off() && above().is_some_and(named)
     }
 
     fn try_all(self, mixed: bool, budget: &mut usize, log: &Log<'_>) -> Result<Vec<Trial>, ReadError> {

@@ -187,6 +187,9 @@ pub enum Warning {
     NotReflectances { count: usize, first: String, max: f64 },
     #[error("{}", not_spectra(*.count, .first))]
     NotSpectra { count: usize, first: String },
+    /// Columns of quantities that hold only zeros.
+    #[error("{first}{}: only zeros, as programs write for what they did not compute: left out", and_more(*.count))]
+    Uncomputed { count: usize, first: String },
     #[error("By their values {first}{} are read as percent, others such as {other} as written", and_more(*.percent))]
     ScalesDiffer { percent: usize, first: String, other: String },
     /// Curves that look like fractions beside others in percent.

@@ -57,7 +57,7 @@ fn unit_from_range(grid: &Grid) -> Result<Decided<WavelengthUnit>, ReadError> {
     }
     let unit = if min >= 1e-7 && max <= 25e-6 && in_order {
         WavelengthUnit::Meter
-    } else if min >= 0.1 && max <= 25.0 && in_order {
+    } else if min >= 0.1 && max <= 25.0 && in_order || are_partly_micrometers(grid, (min, max)) {
         WavelengthUnit::Micrometer
     } else if (2000.0..=4000.0).contains(&min) && (7000.0..=12_000.0).contains(&max) && is_named(grid) {
         // The word excludes wave numbers.
@@ -79,6 +79,18 @@ fn unit_from_range(grid: &Grid) -> Result<Decided<WavelengthUnit>, ReadError> {
         WavelengthUnit::Nanometer
     };
     Ok(Decided::guess(unit, format!("Wavelengths run from {min} to {max}")))
+}
+
+/// True for wavelengths by their name, in order and below 1000, of which some are in range as micrometers: optical constants reach
+/// from the far ultraviolet to the far infrared.
+fn are_partly_micrometers(grid: &Grid, (min, max): (f64, f64)) -> bool {
+    const FROM_TO: (f64, f64) = (0.1, 25.0);
+    const MOST: f64 = 1000.0;
+    let numbers = &grid.wavelengths;
+    let sorted = numbers.is_sorted_by(|a, b| a <= b) || numbers.is_sorted_by(|a, b| a >= b);
+    let within = numbers.iter().filter(|number| (FROM_TO.0..=FROM_TO.1).contains(*number)).count();
+    let fractions = 2 * numbers.iter().filter(|number| number.fract() != 0.0).count() > numbers.len();
+    is_named(grid) && sorted && within >= FEW && fractions && min > 0.0 && max <= MOST
 }
 
 /// True for numbers that are mostly energies in eV of whole or half nanometers, h c / λ, of which micrometers are none.
@@ -186,12 +198,13 @@ pub(super) fn to_nanometers(
     let count = marked.iter().filter(|out| **out).count();
     let within = marked.iter().position(|out| !out).unwrap_or(0);
     let within = within..within + nm.len() - count;
-    let ordered = nm.windows(2).all(|pair| pair[0] < pair[1]) || nm.windows(2).all(|pair| pair[0] > pair[1]);
+    let ordered = nm.is_sorted_by(|a, b| a <= b) || nm.is_sorted_by(|a, b| a >= b);
     let (least, most) = extent(nm.iter().copied());
     // A single zero before the table, as of an empty row, is no wavelength.
     let zero = nm[0] == 0.0 && count == 1 && FEW < nm.len();
-    let sound = ordered && within.len() > 1 && within.len() >= count && (least > 0.0 || zero);
     let guessed = (unit.value, unit.certainty) == (WavelengthUnit::Nanometer, Certainty::Guess);
+    let enough = within.len() >= count || unit.value == WavelengthUnit::Micrometer;
+    let sound = ordered && within.len() > 1 && enough && (least > 0.0 || zero);
     // From light that is seen on, a last few in the far infrared do not make it another unit.
     let few = zero || (RANGE_NM.start()..&VISIBLE_TO_NM).contains(&&nm[0]) && FEW * count <= nm.len();
     let error = match error {
@@ -202,7 +215,10 @@ pub(super) fn to_nanometers(
         }
         error => error,
     };
-    if guessed && !few || !sound || marked[within].contains(&true) {
+    // Halves of a table may take turns; a single number out of order is an error.
+    let falls = nm.windows(2).filter(|pair| pair[1] < pair[0]).count();
+    let mixed = !guessed && 3 * falls.min(nm.len() - 1 - falls) > nm.len() && within.len() >= count && least > 0.0;
+    if !mixed && (guessed && !few || !sound || marked[within].contains(&true)) {
         return Err(error);
     }
     let (from_nm, to_nm) = extent(nm.iter().copied().filter(out));

@@ -37,6 +37,12 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
         // Names of samples may begin with `#` too.
         let is_row = || comment(line).is_none() || rows.parse(number, line).is_ok_and(|row| row.is_some());
         let is_types = || rows.curves.is_empty() && dialect.cells(line).all(names_type);
+        // Units and the end of the header in `SeaBASS` files, whose names of columns are a line of it.
+        if let Some(units) = line.strip_prefix('/').filter(|_| rows.curves.is_empty()) {
+            let unit = units.strip_prefix("units=").and_then(|units| dialect.cells(units).nth(group.start));
+            header.unit = unit.and_then(unit_text::unit_cell).or(header.unit);
+            continue;
+        }
         if !line.trim_ascii().is_empty() && line != header_line && is_row() && !is_types() {
             rows.take(number, line)?;
         }
@@ -276,7 +282,7 @@ impl<'a> Rows<'a> {
                 self.lines.insert(number, line);
                 self.labels.push(label);
                 if !self.suspects.is_empty() {
-                    self.look_at_suspects(line);
+                    self.look_at_suspects(line, &curve.name);
                 }
                 self.push(number, curve)
             }
@@ -329,8 +335,9 @@ impl<'a> Rows<'a> {
         self.dialect.cells(line).take(width).count() == width
     }
 
-    fn look_at_suspects(&mut self, line: &str) {
-        for (column, cell) in self.dialect.cells(line).enumerate() {
+    /// Looks for numbers in the suspects of a row, but for its name.
+    fn look_at_suspects(&mut self, line: &str, name: &str) {
+        for (column, cell) in self.dialect.cells(line).enumerate().filter(|(_, cell)| *cell != name) {
             if let Ok(at) = self.suspects.binary_search_by_key(&column, |(column, _)| *column) {
                 self.suspects[at].1 |= matches!(self.dialect.parse(cell), Cell::Number(_));
             }

@@ -5,15 +5,7 @@ use spectral_file::{
     Certainty, Orientation, Quantity, ReadError, ReadOptions, Role, Source, Values, Warning, WavelengthUnit, read,
 };
 
-use super::{error, names, ok, rows};
-
-fn of_file(path: &str, text: &str) -> spectral_file::SpectralFile {
-    read(Source { path, ..Source::from(text) }, &ReadOptions::default()).unwrap_or_else(|error| panic!("{error}"))
-}
-
-fn lines(of: impl Fn(usize) -> String) -> String {
-    (400..440).map(of).collect::<Vec<_>>().concat()
-}
+use super::{error, lines, names, of_file, ok, rows};
 
 #[test]
 fn tidy_tables_may_repeat_a_wavelength_and_have_empty_rows() {

@@ -9,7 +9,7 @@ use super::damage::{SOUND, check};
 use super::*;
 
 /// A file for each reader, as short as its traps allow.
-const FAMILIES: [&str; 16] = [
+const FAMILIES: [&str; 17] = [
     "{\"wavelengths\": [400, 410, 420], \"reflectance\": [0.1, 0.2, 0.3]}",
     "CGATS.17\nSPECTRAL_NORM \"100\"\nBEGIN_DATA_FORMAT\nSAMPLE_NAME nm400 nm410\nEND_DATA_FORMAT\nBEGIN_DATA\n\
      \"a \"\"b\" 5 -9999 # c\nd 5,5 6,5\nEND_DATA\nCAL\n",
@@ -40,6 +40,8 @@ const FAMILIES: [&str; 16] = [
      410.0  1.0  2,0  NaN\n430.0  1.0  2.0  8.0\n",
     "PE UV       SUBTECH     SPECTRUM    ASCII       PEDS        4.00        \n  -1\na.asc\n#HDR\n-1\n#GR\nnm\n%R\n1.0\n0.0\n410.0\n-10.0\n2\n\
      #DATA\n410.0\t5.0\n400,0\t6.0\n",
+    "CC glasses\nNM G1 2 1 1.5 60 0\nED 1 0 1\nIT 0.4 0.9 25\nIT 0.41 0.91 25\nNM G2 2 1 1.5 60 0\nED 1 0 1\nIT 0.4 0.8 10\n\
+     IT 0.42 0.7 10\n",
 ];
 
 /// All files in UTF-8, the short ones in UTF-16 and with NUL bytes and letters of Windows-1252 among them too.

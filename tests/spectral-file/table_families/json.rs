@@ -191,7 +191,7 @@ fn what_holds_no_spectrum_is_no_broken_json() {
     let deep = format!("{}{{{}}}{}", "[".repeat(100), LISTS.replace('\'', "\""), "]".repeat(100));
     assert_eq!(error(&deep), ReadError::Unsupported(Family::Json));
     assert!(matches!(error("{\"wavelengths\": [400, 500"), ReadError::Malformed { family: Family::Json, .. }));
-    assert!(matches!(error("[{\"wavelength\": 400,}]"), ReadError::Malformed { family: Family::Json, .. }));
+    assert!(matches!(error("[{\"wavelength\": 400;}]"), ReadError::Malformed { family: Family::Json, .. }));
 }
 
 #[test]
@@ -205,4 +205,16 @@ fn a_list_cut_short_is_an_error_and_another_list_is_said() {
     assert_eq!(error(not), ReadError::NotANumber { line: 3, column: 1, text: "1e999".to_owned() });
     let twice = ok(&format!("{{{LISTS}}}").replace('\'', "\"").replace("600", "500"));
     assert!(matches!(twice.warnings.as_slice(), [Warning::Averaged { .. }]), "{:?}", twice.warnings);
+}
+
+#[test]
+fn entries_of_wavelengths_trailing_commas_and_fields_of_charts() {
+    let list = "[{\"type\": \"wavelengths\", \"values\": [400, 410, 420,]}, // first\n {\"name\": \"red\", \"reflectance\": [1, 2, 3,],},\n]";
+    let table = ok(list);
+    assert_eq!((table.curves[0].name.as_str(), &*table.curves[0].values), ("red", &[1.0, 2.0, 3.0][..]));
+    let text = "{\"name\": \"a,]\", \"wavelengths\": [400, 410, 420], \"reflectance\": [1, 2, 3,]}";
+    assert_eq!(ok(text).curves[0].name, "a,]");
+    let fields: Vec<String> = (38..50).map(|nm| format!("\"SPECTRAL_NM{nm}0\": \"0.{nm}\"")).collect();
+    let chart = format!("[{{\"SAMPLE_ID\": \"A1\", \"XYZ_X\": \"3.7\", {}}}]", fields.join(", "));
+    assert_eq!((ok(&chart).curves[0].values.len(), ok(&chart).reading.range_nm), (12, [380.0, 490.0]));
 }

@@ -58,10 +58,10 @@ pub(super) fn find(header: &Header, at: usize, wavelengths: &[f64], before: &[Ve
     axes.guessed = guess_pairs(header, at, wavelengths, columns, &mut kinds);
     // Tables side by side repeat the name of their first column.
     for index in (0..columns.len()).filter(|index| header.name(at + 1 + index).is_some()) {
-        let again = kinds[index] == Kind::Value && header.name(at + 1 + index) == header.name(at);
+        let again = header.name(at + 1 + index) == header.name(at) || has_ends_of(wavelengths, &columns[index]);
         // Points read off a plot may go back a little.
         let (low, high) = extent(columns[index].iter().copied().filter(|value| !value.is_nan()));
-        if again && units::plausible(low, high, false) {
+        if kinds[index] == Kind::Value && again && units::plausible(low, high, false) {
             (kinds[index], axes.guessed) = (Kind::Wavelengths, true);
         }
     }
@@ -79,6 +79,20 @@ pub(super) fn find(header: &Header, at: usize, wavelengths: &[f64], before: &[Ve
         }
     }
     axes
+}
+
+/// True for numbers that run from where the wavelengths begin to where they end, as no values do. Points read off a plot may go back
+/// a little.
+fn has_ends_of(wavelengths: &[f64], column: &[f64]) -> bool {
+    const CLOSE: f64 = 0.03;
+    const MOST_BACK: usize = 10;
+    let Some((low, high)) = ends(wavelengths).filter(|_| wavelengths.len() >= FEWEST_COUNTED) else { return false };
+    let column: Vec<f64> = column.iter().copied().filter(|value| !value.is_nan()).collect();
+    let steps = || column.windows(2).map(|pair| pair[1] - pair[0]);
+    let back = steps().filter(|step| *step < 0.0).count().min(steps().filter(|step| *step > 0.0).count());
+    let near = |a: f64, b: f64| (a - b).abs() < CLOSE * (high - low);
+    let ends = |from: f64, to: f64| near(low, from.min(to)) && near(high, from.max(to));
+    column.len() >= FEWEST_COUNTED && MOST_BACK * back < column.len() && ends(column[0], column[column.len() - 1])
 }
 
 pub(super) fn column_list(header: &Header, columns: &[usize]) -> String {

@@ -90,6 +90,9 @@ fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, R
     if options.reader.is_none() {
         notes.extend(instrument::recognize(text, &mut grid));
     }
+    if options.raw != Some(true) {
+        no_curve::leave_out_uncomputed(&mut grid, log);
+    }
     notes.extend(no_curve::leave_out_raw(&mut grid, options));
     Ok(Found { grid, layout, reader, notes })
 }

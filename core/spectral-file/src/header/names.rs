@@ -7,7 +7,7 @@ use crate::decision::{Delimiter, Values, WavelengthUnit};
 use crate::dialect::{Cell, Dialect};
 use crate::dialect_trial::Layout;
 use crate::header_terms::{self, XUnit};
-use crate::text::{Lines, Section, comment, is_one, lower};
+use crate::text::{Lines, Section, comment, has_part, is_one, lower};
 use crate::{uncertainty_terms, unit_text};
 
 impl Header {
@@ -40,7 +40,8 @@ impl Header {
             }
             let quoted = short && line.trim_start().starts_with('"');
             let exact = is_comment || layout.delimiter.value == Delimiter::Spaces && !quoted;
-            if cells.len() < 2 || (exact && cells.len() != layout.width) {
+            let is_source = is_comment && has_part(line, "://|www.|ftp.");
+            if cells.len() < 2 || exact && cells.len() != layout.width || is_source {
                 let unit_alone = cells.len() == 1 && self.units.is_empty() && is_unit(&cells[0]);
                 if unit_alone {
                     self.x_unit = header_terms::x_unit(&cells[0]).map(|unit| (number, unit));

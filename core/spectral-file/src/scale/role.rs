@@ -82,7 +82,8 @@ fn none_of_the_roles(grid: &Grid) -> Option<String> {
     }
     let clues = &grid.header.clues;
     if let Some((line, why)) = clues.other.filter(|_| grid.header.role.is_none()) {
-        return Some(format!("By line {line}: {}", chromascope_text::lowered(why)));
+        let said = if line == 0 { "the file's name".to_owned() } else { format!("line {line}") };
+        return Some(format!("By {said}: {}", chromascope_text::lowered(why)));
     }
     let is_term = |curve: &RawCurve| {
         uncertainty_terms::term(unit_text::without_unit(&curve.label), &curve.label)

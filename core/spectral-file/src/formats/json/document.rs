@@ -161,13 +161,17 @@ enum In {
     Block,
 }
 
-/// A text whose comments are spaces, so that lines and columns in errors are those of the file.
+/// A text in which comments, and commas behind the last of a list, are spaces, so that lines and columns in errors are those of the
+/// file.
 pub(super) fn without_comments<'a>(text: &'a str, log: &Log<'_>) -> Result<Cow<'a, str>, ReadError> {
-    if !text.contains("//") && !text.contains("/*") {
+    let spare = || text.split([']', '}']).any(|before| before.trim_end().ends_with(','));
+    if !text.contains("//") && !text.contains("/*") && !spare() {
         return Ok(Cow::Borrowed(text));
     }
     let mut bytes = text.as_bytes().to_vec();
     let (mut state, mut at, mut next_look) = (In::Code, 0, STRIDE);
+    // The last comma, if nothing but blanks and comments has followed it.
+    let mut comma = None;
     while at < bytes.len() {
         if at >= next_look {
             next_look = at + STRIDE;
@@ -187,6 +191,12 @@ pub(super) fn without_comments<'a>(text: &'a str, log: &Log<'_>) -> Result<Cow<'
         if comment(state) || comment(next) {
             let end = (at + width).min(bytes.len());
             bytes[at..end].iter_mut().filter(|byte| !matches!(byte, b'\n' | b'\r')).for_each(|byte| *byte = b' ');
+        } else if matches!(pair.0, b']' | b'}') && state == In::Code {
+            if let Some(comma) = comma.take() {
+                bytes[comma] = b' ';
+            }
+        } else if !pair.0.is_ascii_whitespace() {
+            comma = (pair.0 == b',' && state == In::Code).then_some(at);
         }
         state = next;
         at += width;

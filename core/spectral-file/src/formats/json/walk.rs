@@ -41,7 +41,7 @@ const FEWEST_GUESSED: usize = 10;
 #[derive(Clone, Default)]
 pub(super) struct Around<'a> {
     /// Wavelengths, and how they are written where they are.
-    pub(super) wavelengths: Rc<[(f64, &'a str)]>,
+    pub(super) wavelengths: Rc<[Wavelength<'a>]>,
     pub(super) name: String,
     pub(super) quantity: String,
     pub(super) unit: String,
@@ -51,15 +51,18 @@ pub(super) struct Around<'a> {
     pub(super) alone: bool,
 }
 
+/// A wavelength, and how it is written.
+type Wavelength<'a> = (f64, &'a str);
+
 /// A list of numbers with its key, and wavelengths with the lists beside them.
 type List<'a> = (Cow<'a, str>, Vec<&'a str>);
-type Group<'a> = (Rc<[(f64, &'a str)]>, Vec<List<'a>>);
+type Group<'a> = (Rc<[Wavelength<'a>]>, Vec<List<'a>>);
 
 /// Values at one wavelength, each with the name of its column, which may be empty.
 struct Row<'a> {
     /// The name of the sample that it is of.
     sample: String,
-    wavelength: (f64, &'a str),
+    wavelength: Wavelength<'a>,
     cells: Vec<(Cow<'a, str>, &'a str)>,
 }
 
@@ -115,7 +118,7 @@ impl<'d, 'a, 'l, 'w> Walk<'d, 'a, 'l, 'w> {
     }
 
     fn list(&mut self, value: Value<'a>, mut around: Around<'a>, depth: usize) -> Result<(), ReadError> {
-        let items = value.items()?;
+        let mut items = value.items()?;
         if items[0].starts_with('[') {
             return self.rows(&items, around);
         }
@@ -123,10 +126,28 @@ impl<'d, 'a, 'l, 'w> Walk<'d, 'a, 'l, 'w> {
             return Ok(());
         }
         check_curves(items.len(), 1)?;
+        if let Some((at, wavelengths)) = self.entry_of_wavelengths(&items)? {
+            items.remove(at);
+            around.wavelengths = wavelengths.into();
+        }
         if items.len() > 1 {
             (around.alone, around.name) = (false, String::new());
         }
         items.into_iter().try_for_each(|item| self.value(value.with(item), around.clone(), depth + 1))
+    }
+
+    /// The entry of a list whose name or type says that its numbers are the wavelengths of the others.
+    fn entry_of_wavelengths(&mut self, items: &[&'a str]) -> Result<Option<(usize, Vec<Wavelength<'a>>)>, ReadError> {
+        for (at, item) in items.iter().enumerate().filter(|(_, item)| item.starts_with('{')) {
+            let members = self.document.whole.with(item).members()?;
+            let is_name = |value: Value<'a>| value.read::<String>().is_ok_and(|text| header_terms::names_axis(&text));
+            if members.each().any(|(_, value)| value.written.starts_with('"') && is_name(value)) {
+                let list = members.each().find(|(_, value)| value.written.starts_with('['));
+                let found = list.map(|(key, value)| self.axis(key, value)).transpose()?.flatten();
+                return Ok(found.map(|wavelengths| (at, wavelengths)));
+            }
+        }
+        Ok(None)
     }
 
     fn object(&mut self, value: Value<'a>, mut here: Around<'a>, depth: usize) -> Result<(), ReadError> {
@@ -155,7 +176,7 @@ impl<'d, 'a, 'l, 'w> Walk<'d, 'a, 'l, 'w> {
                 self.leave_out(&lists, wavelengths.len(), all)?;
             }
             lists.retain(|(_, pieces)| pieces.len() == wavelengths.len());
-            let row = |(at, wavelength): (usize, &(f64, &'a str))| {
+            let row = |(at, wavelength): (usize, &Wavelength<'a>)| {
                 let cells = lists.iter().map(|(key, pieces)| (key.clone(), pieces[at])).collect();
                 Ok(Row { sample: String::new(), wavelength: *wavelength, cells })
             };
@@ -262,8 +283,7 @@ impl<'d, 'a, 'l, 'w> Walk<'d, 'a, 'l, 'w> {
     }
 
     /// The wavelengths among the members of an object, with the key of what they are of.
-    #[allow(clippy::type_complexity, reason = "wavelengths with their key, in one place")]
-    fn own_wavelengths(&mut self, members: &Members<'a>) -> Result<Option<(String, Vec<(f64, &'a str)>)>, ReadError> {
+    fn own_wavelengths(&mut self, members: &Members<'a>) -> Result<Option<(String, Vec<Wavelength<'a>>)>, ReadError> {
         let lists = || members.each().filter(|(_, value)| value.written.starts_with(['[', '{']));
         let names: Vec<String> = lists().map(|(key, _)| words(key)).collect();
         let other = || names.iter().position(|name| is_one(name, AXES));
@@ -277,7 +297,7 @@ impl<'d, 'a, 'l, 'w> Walk<'d, 'a, 'l, 'w> {
     }
 
     /// Wavelengths in a list, in a range, or in a member of an object.
-    pub(super) fn axis(&mut self, key: &str, value: Value<'a>) -> Result<Option<Vec<(f64, &'a str)>>, ReadError> {
+    pub(super) fn axis(&mut self, key: &str, value: Value<'a>) -> Result<Option<Vec<Wavelength<'a>>>, ReadError> {
         if let Some(pieces) = numbers(value).filter(|pieces| pieces.len() > 1) {
             let numbers = pieces.iter().enumerate().map(|(at, piece)| Ok((value.number(piece, at)?, *piece)));
             let numbers = numbers.collect::<Result<Vec<_>, ReadError>>()?;
@@ -299,7 +319,7 @@ impl<'d, 'a, 'l, 'w> Walk<'d, 'a, 'l, 'w> {
         within.map_or(Ok(None), |(key, value)| self.axis(key, value))
     }
 
-    fn ranged(&mut self, key: &str, [first, last, step]: [f64; 3]) -> Result<Vec<(f64, &'a str)>, ReadError> {
+    fn ranged(&mut self, key: &str, [first, last, step]: [f64; 3]) -> Result<Vec<Wavelength<'a>>, ReadError> {
         let steps = ((last - first) / step).round();
         if !(1.0..=MAX_SAMPLES as f64).contains(&steps) {
             return Err(ReadError::NoWavelengths(self.document.line(key)));
@@ -324,8 +344,11 @@ impl<'d, 'a, 'l, 'w> Walk<'d, 'a, 'l, 'w> {
 
     /// Takes an object whose keys are wavelengths, if it is one. Where nothing says that it is, it has to look so.
     pub(super) fn keyed(&mut self, members: &Members<'a>, here: &Around<'a>, known: bool) -> Result<bool, ReadError> {
-        let number =
-            |key: &str| key.trim().trim_end_matches("nm").trim_end().parse().ok().filter(|nm: &f64| nm.is_finite());
+        let number = |key: &str| {
+            let key =
+                key.strip_prefix("SPECTRAL_").map_or(key, |key| key.trim_start_matches("NM").trim_start_matches('_'));
+            key.trim().trim_end_matches("nm").trim_end().parse().ok().filter(|nm: &f64| nm.is_finite())
+        };
         let keys: Vec<f64> = members.each().filter_map(|(key, _)| number(key)).collect();
         if keys.is_empty() || !known && (keys.len() < FEWEST_GUESSED || !is_plausible(&keys)) {
             return Ok(false);

@@ -1,0 +1,131 @@
+//! What judges of real files found, a tenth time: glass catalogs, logarithms, zeros that were not computed, units in lists, columns
+//! described in comments, and wavelengths beyond the range.
+
+use spectral_file::{Certainty, Quantity, ReadError, Reader, Role, Values, Warning, WavelengthUnit};
+
+use super::{error, lines, names, of_file, ok};
+
+#[test]
+fn glass_catalogs_have_internal_transmittances() {
+    let glass = |name: &str, thickness: &str| {
+        format!(
+            "NM {name} 2 1 1.5 60 0\nED 1 0 1\nCD 1 2 3\nIT 4.0E-001 9.0E-001 {thickness}\nIT 5.0E-001 8.0E-001 {thickness}\n"
+        )
+    };
+    let text = format!("CC a catalog\n{}{}NM NONE 2 1 1 1 0\nIT 0.4 1 5\n", glass("G1", "2.5E+001"), glass("G2", "10"));
+    let table = ok(&text);
+    assert_eq!(table.reading.reader.value, Reader::AGF);
+    // One sample is no spectrum.
+    assert_eq!(names(&table), ["G1 (25 mm)", "G2 (10 mm)"]);
+    assert_eq!((&*table.curves[0].wavelengths_nm, &*table.curves[1].values), (&[400.0, 500.0][..], &[0.9, 0.8][..]));
+    assert!(table.role.certainty == Certainty::Open && table.role.why.contains("Internal"), "{}", table.role.why);
+    let broken = text.replace("IT 4.0E-001 9.0E-001 10", "IT 4.0E-001 x 10");
+    assert_eq!(error(&broken), ReadError::NotANumber { line: 10, column: 3, text: "x".to_owned() });
+    assert_eq!(error(&text.replace(" 9.0E-001 10", "")), ReadError::UnevenRow { line: 10, found: 2, expected: 4 });
+}
+
+#[test]
+fn logarithms_are_no_values() {
+    let of = |heads: &str| ok(&format!("{heads}\n{}", lines(|nm| format!("{nm},1.5,1.6,1.7\n"))));
+    for heads in ["nm,log sensitivity,b,c", "nm,log10(R),log10(G),log10(B)", "nm,a,b,Log_irradiance"] {
+        let role = of(heads).role;
+        assert!(role.certainty == Certainty::Open && role.why.contains("Logarithms"), "{heads}: {}", role.why);
+    }
+    assert_eq!(of("nm,catalog reflectance,b,c").role.value, Role::Reflectance);
+    assert_eq!(
+        ok(&format!("nm,log(1/R)\n{}", lines(|nm| format!("{nm},0.5\n")))).reading.values.value,
+        Values::Absorbance
+    );
+    let film = of_file("film_log_sensitivity.csv", &format!("nm,R,G,B\n{}", lines(|nm| format!("{nm},1.5,1.6,1.7\n"))));
+    assert!(film.role.why.contains("file's name"), "{}", film.role.why);
+}
+
+#[test]
+fn zeros_that_were_not_computed_are_left_out() {
+    let heads =
+        "Pixel;Wavelength;Dark;Reference;Raw data #1;Dark Subtracted #1;%TR #1;Absorbance #1;Irradiance (lumen) #1";
+    let table = ok(&format!("{heads}\n{}", lines(|nm| format!("{nm};{nm},5;1;2;{nm};7,5;0;0;0\n"))));
+    assert_eq!((names(&table), table.role.value), (vec!["Dark Subtracted #1"], Role::Unknown));
+    assert!(table.warnings.iter().any(|warning| matches!(warning, Warning::Uncomputed { count: 3, .. })));
+    // Beside what was measured of the same, they may have been measured too.
+    let dark = ok(&format!("nm,irradiance on,irradiance off\n{}", lines(|nm| format!("{nm},0.5,0\n"))));
+    assert_eq!(dark.curves.len(), 2);
+}
+
+#[test]
+fn units_and_columns_in_comments() {
+    let solar = "# Units: μm, W/m2/μm\nwavelength, spectral irradiance, integrated irradiance\n";
+    let table = ok(&format!("{solar}{}30.0, 0.1, 9\n", lines(|nm| format!("0.{nm}, 2.5, {nm}\n"))));
+    assert_eq!((names(&table), table.reading.range_nm), (vec!["spectral irradiance"], [400.0, 439.0]));
+    assert_eq!(table.curves[0].unit.as_deref(), Some("W/m²/nm"));
+    let star = "# from www.example.org/stars\n# Units: Angstroms(A) and erg s-1 cm-2 A-1\n";
+    let table = ok(&format!("{star}{}", lines(|nm| format!("{nm}0 1e-9\n"))));
+    assert_eq!(table.reading.wavelength_unit.value, WavelengthUnit::Angstrom);
+    assert_eq!((names(&table), table.reading.quantity.value), (vec!["Column 2"], Quantity::Irradiance));
+    let extinction = "# Column wavelength\n# Column extinction\n";
+    assert_eq!(names(&ok(&format!("{extinction}{}", lines(|nm| format!("{nm} 0.5\n"))))), ["extinction"]);
+    let ash = ok(&format!("#FORMAT = Wavn n k\n{}", lines(|nm| format!("{nm}0 1.5 0.1\n"))));
+    assert_eq!((names(&ash), ash.reading.wavelength_unit.value), (vec!["n", "k"], WavelengthUnit::Wavenumber));
+    let types = "!TYPE=1  # 0=Reflectance, 1=Optical-Constants\n";
+    assert_eq!(ok(&format!("{types}{}", lines(|nm| format!("{nm} 1.5 0.1\n")))).role.certainty, Certainty::Open);
+    let lamp = ok(&format!("X-Unit=nm,\nY-Unit=W/nm,\nData,\n{}", lines(|nm| format!("{nm},0.5\n"))));
+    assert_eq!((lamp.curves[0].unit.as_deref(), lamp.role.value), (Some("W/nm"), Role::Illuminant));
+}
+
+#[test]
+fn axes_across() {
+    let heads = (375..425).map(|nm| format!(",{}", 2 * nm)).collect::<String>();
+    let row = |nm: usize| format!(",\"17{nm}\"{}\n", ",0.5".repeat(50));
+    let table = ok(&format!("\"Axisscale\",{heads}\n{}", lines(row)));
+    assert_eq!((table.curves.len(), table.reading.range_nm), (40, [750.0, 848.0]));
+    assert!(table.warnings.is_empty(), "{:?}", table.warnings);
+    let [fields, units] = ["Es", "uW/cm^2/nm"].map(|cell| {
+        (400..420)
+            .map(|at| if cell == "Es" { format!(",Es{}.5", 2 * at) } else { format!(",{cell}") })
+            .collect::<String>()
+    });
+    let row = format!("20240505{}\n", ",57.5".repeat(20));
+    let sea = format!("/begin_header\n/fields=date{fields}\n/units=yyyymmdd{units}\n/end_header\n{row}{row}");
+    let table = ok(&sea);
+    assert_eq!((table.reading.quantity.value, table.reading.range_nm), (Quantity::Irradiance, [800.5, 838.5]));
+}
+
+#[test]
+fn wavelengths_beyond_the_range_and_back() {
+    // Optical constants from the far ultraviolet to the far infrared.
+    let table = ok(&format!("lambda n k\n0.0175 0.8 0.1\n{}50.5 1.5 0.2\n", lines(|nm| format!("0.{nm} 1.5 0.1\n"))));
+    assert_eq!(
+        (table.reading.wavelength_unit.value, table.reading.range_nm),
+        (WavelengthUnit::Micrometer, [400.0, 439.0])
+    );
+    // Points read off a plot, behind the name of the lamp.
+    let row = |nm: usize| format!("Hydra,{}.5,0.{nm}\n", if nm == 420 { 419 } else { nm });
+    let table = ok(&format!("Light.source,Wavelength,Relative.Intensity\n{}", lines(row)));
+    assert_eq!((table.curves.len(), table.curves[0].values.len()), (1, 39));
+}
+
+#[test]
+fn names_of_files_and_folders() {
+    let role = |path: &str, curves: usize| {
+        let table = of_file(path, &lines(|nm| format!("{nm}{}\n", " 0.5".repeat(curves))));
+        (table.role.value, table.role.certainty)
+    };
+    let guess = |role| (role, Certainty::Guess);
+    assert_eq!(role("Canon_EOS_5D.txt", 3), guess(Role::Camera));
+    assert_eq!(role("Canon_EOS_5D.txt", 1).1, Certainty::Open);
+    assert_eq!(role("SRF/dove.txt", 4), guess(Role::Camera));
+    assert_eq!(role("NREL_AM1_5g_tilt.txt", 1), guess(Role::Illuminant));
+    assert_eq!(role("team_1_5.txt", 1).1, Certainty::Open);
+    let raman = |heads: &str| of_file("Raman/gold.txt", &format!("{heads}\n{}", lines(|nm| format!("{nm} 0.5 0.1\n"))));
+    assert_eq!(raman("lambda n k").reading.range_nm, [400.0, 439.0]);
+}
+
+#[test]
+fn columns_of_wavelengths_by_their_numbers() {
+    let row = |nm: usize| format!("{nm},0.{nm},{}.5,0.5,{}.7,0.6\n", if nm == 420 { 418 } else { nm }, nm);
+    let table = ok(&format!("\"lambs, usual\",usual,\"lambs, sky\",sky,\"lambs, clouds\",clouds\n{}", lines(row)));
+    assert_eq!(names(&table), ["usual", "sky", "clouds"]);
+    assert_eq!(table.curves[2].wavelengths_nm[0], 400.7);
+    let sizes = error(&format!("Size (d.nm)\tIntensity (%)\n{}", lines(|nm| format!("{nm}\t0.5\n"))));
+    assert_eq!(sizes, ReadError::NotWavelengths(1));
+}
