@@ -218,6 +218,7 @@ fn wavelength_units() {
         ("#XAxisUnit;cm-1\n25000;1\n20000;2\n", Unit::Wavenumber, Sure::Certain),
         ("cm⁻¹\ta\n25000\t1\n20000\t2\n", Unit::Wavenumber, Sure::Certain),
         ("Frequency (THz),a\n749.481145,1\n599.584916,2\n", Unit::Terahertz, Sure::Certain),
+        ("Energy (eV),a\n3.09960496083,1\n2.479683968664,2\n", Unit::Electronvolt, Sure::Certain),
         ("400,1\n500,2\n", Unit::Nanometer, Sure::Guess),
     ] {
         let table = ok(text);
@@ -520,7 +521,7 @@ fn broken_rows_are_named() {
 #[test]
 fn what_cannot_be_told_apart() {
     assert_eq!(error("380,0,0,05\n385,0,0,12\n390,0,0,2\n"), ReadError::AmbiguousCommas(1));
-    assert_eq!(error("eV,a\n3.2,1\n3.1,2\n"), ReadError::NotWavelengths(1));
+    assert_eq!(error("Binding energy (eV),a\n3.2,1\n3.1,2\n"), ReadError::NotWavelengths(1));
     let ambiguous = ReadError::AmbiguousUnit { line: 1, min: 4000.0, max: 5000.0 };
     assert_eq!(error("4000,1\n5000,2\n"), ambiguous);
     assert!(ambiguous.to_string().ends_with("choose the wavelength unit"));

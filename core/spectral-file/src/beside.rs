@@ -32,44 +32,60 @@ impl<'a, T: AsRef<[u8]> + ?Sized> From<&'a T> for Source<'a> {
 pub(super) fn take(source: Source<'_>, grid: &mut Grid) {
     #[cfg(feature = "json")]
     metadata::take(source.metadata, grid);
+    let names: Vec<&str> = source.path.rsplit(['/', '\\']).take(LEVELS).collect();
+    let stem = file_stem(source.path).map(words).unwrap_or_default();
+    take_role(source.path, &stem, grid);
+    let folder = names.get(1).map(|name| words(name)).unwrap_or_default();
+    take_clues(&stem, &folder, grid);
+    take_axis(source.path, &stem, &names, grid);
+}
+
+fn take_role(path: &str, stem: &[String], grid: &mut Grid) {
     let constants = grid.curves.iter().all(|curve| is_one(&curve.name, "n|k"));
     let names_other = grid.header.clues.material || constants;
     let fluorescence = grid.header.clues.fluorescence;
     let fits = |beside: &Decided<Role>| {
         (!constants || beside.value == Role::Unknown) && (!fluorescence || beside.value == Role::Illuminant)
     };
-    let stem = file_stem(source.path).map(words).unwrap_or_default();
-    // A filter or a display is of some maker of cameras too, but has not three curves without names.
+    // Filters and displays are of such makers too, but have not three curves.
     let is_camera = || (3..=4).contains(&grid.curves.len()) && stem.iter().any(|word| is_one(word, CAMERA_MAKERS));
     let of_maker = || {
-        let why = format!("The file is named after a maker of cameras, “{}”", excerpt(file_stem(source.path)?));
+        let why = format!("The file is named after a maker of cameras, “{}”", excerpt(file_stem(path)?));
         is_camera().then(|| Decided::guess(Role::Camera, why))
     };
-    grid.beside = grid.beside.take().or_else(|| of_path(source.path, names_other).filter(fits)).or_else(of_maker);
-    let folder = source.path.rsplit(['/', '\\']).nth(1).map(words).unwrap_or_default();
+    grid.beside = grid.beside.take().or_else(|| of_path(path, names_other).filter(fits)).or_else(of_maker);
+}
+
+/// Takes what the names say of the values: absorbances, uncertainties, logarithms, quantum efficiencies.
+fn take_clues(stem: &[String], folder: &[String], grid: &mut Grid) {
+    let role = grid.beside.as_ref().map(|beside| beside.value);
+    let title = stem.join(" ");
     let says_absorbance = |words: &[String]| words.iter().any(|word| word.starts_with("absorban"));
     let is_absorbance =
-        says_absorbance(&stem) || says_absorbance(&folder) && stem.iter().all(|word| role_of_word(word).is_none());
-    let is_absorbance = is_absorbance && grid.beside.as_ref().is_some_and(|beside| beside.value == Role::Transmittance);
+        says_absorbance(stem) || says_absorbance(folder) && stem.iter().all(|word| role_of_word(word).is_none());
+    let is_absorbance = is_absorbance && role == Some(Role::Transmittance);
+    let other = header_terms::not_converted(&title).filter(|_| role != Some(Role::Unknown));
     let clues = &mut grid.header.clues;
     clues.absorbance = clues.absorbance.or(is_absorbance.then_some(0));
-    let has_role = grid.beside.as_ref().is_none_or(|beside| beside.value != Role::Unknown);
-    clues.other = clues.other.or_else(|| Some((0, header_terms::not_converted(&stem.join(" "))?))).filter(|_| has_role);
-    clues.uncertainties = clues.uncertainties.or(uncertainty_terms::is_title(&stem.join(" ")).then_some(0));
-    // Axes of Raman spectra are shifts, which number no wavelengths.
-    let folders: Vec<&str> = source.path.rsplit(['/', '\\']).take(5).collect();
+    clues.other = clues.other.or(other.map(|why| (0, why)));
+    clues.uncertainties = clues.uncertainties.or(uncertainty_terms::is_title(&title).then_some(0));
+    clues.quantum = stem.iter().any(|word| is_one(word, "qe|eqe|quantum"));
+}
+
+/// Takes what the names of the file and of its folders, the nearest first, say of the axis.
+fn take_axis(path: &str, stem: &[String], names: &[&str], grid: &mut Grid) {
     // Raman is a person's name, too.
-    let is_user = |at: usize| folders.get(at + 1).is_some_and(|above| is_one(&above.to_lowercase(), "home|users"));
-    let names = |at: usize, list: &str| words(folders[at]).iter().any(|word| is_one(word, list));
-    let names_raman = |at: usize| !is_user(at) && names(at, "raman") && !names(at, "nir|ir|ftir|uv|vis");
-    let is_raman = (0..folders.len().min(4)).any(names_raman);
+    let is_user = |at: usize| names.get(at + 1).is_some_and(|above| is_one(&above.to_lowercase(), "home|users"));
+    let has = |at: usize, list: &str| words(names[at]).iter().any(|word| is_one(word, list));
+    let names_raman = |at: usize| !is_user(at) && has(at, "raman") && !has(at, "nir|ir|ftir|uv|vis");
+    let is_raman = (0..names.len().min(LEVELS - 1)).any(names_raman);
     let header = &mut grid.header;
     let column = grid.wavelength_column.unwrap_or(1).saturating_sub(1);
     let is_wavelength =
         |name: &str| header_terms::begins_with_wavelengths(name) && !name.to_lowercase().contains("number");
-    let says_wavelengths = header.name(column).is_some_and(is_wavelength);
+    // Axes of Raman spectra are shifts, which number no wavelengths.
     if is_raman
-        && !says_wavelengths
+        && !header.name(column).is_some_and(is_wavelength)
         && grid.unit.is_none()
         && matches!(header.x_unit, None | Some((_, XUnit::Wavelength(WavelengthUnit::Wavenumber))))
     {
@@ -77,17 +93,16 @@ pub(super) fn take(source: Source<'_>, grid: &mut Grid) {
         (header.x_unit, grid.label_unit) = (Some((line.unwrap_or(1), XUnit::Other)), None);
     }
     // `Au-Ovidio-eV`, `flux_angstroms`
-    let says = |word: &str| {
-        file_stem(source.path).is_some_and(|stem| stem.split(|c: char| !c.is_alphanumeric()).any(|part| part == word))
-    };
-    let is_angstrom = || stem.iter().any(|word| is_one(word, "angstrom|angstroms"));
+    let parts = || file_stem(path).into_iter().flat_map(|stem| stem.split(|c: char| !c.is_alphanumeric()));
     if grid.unit.is_none() && header.x_unit.is_none() {
-        header.x_unit = says("eV").then(|| (header.line.unwrap_or(1), XUnit::Other));
-        grid.unit = is_angstrom().then(|| Decided::guess(WavelengthUnit::Angstrom, "The file is named so"));
+        let angstroms = stem.iter().any(|word| is_one(word, "angstrom|angstroms")).then_some(WavelengthUnit::Angstrom);
+        let unit = angstroms.or(parts().any(|part| part == "eV").then_some(WavelengthUnit::Electronvolt));
+        grid.unit = unit.map(|unit| Decided::guess(unit, "The file is named so"));
     }
-    let clues = &mut grid.header.clues;
-    clues.quantum = stem.iter().any(|word| is_one(word, "qe|eqe|quantum"));
 }
+
+/// Names at the end of a path that are looked at.
+const LEVELS: usize = 5;
 
 const CAMERA_MAKERS: &str =
     "canon|nikon|sony|fuji|fujifilm|olympus|pentax|leica|panasonic|hasselblad|ricoh|iphone|gopro";
@@ -141,11 +156,15 @@ fn of_name(name: &str) -> Option<(Role, bool)> {
     let starts = std::iter::once(name).chain(name.match_indices(['_', '-', '.', ' ']).map(|(at, _)| &name[at + 1..]));
     let starts: Vec<String> = starts.map(joined).collect();
     let is_sun = |sun: &&str| starts.iter().any(|start| start.strip_prefix(*sun).is_some_and(ends));
-    let is_solar = ["am0", "am15", "astmg173"].iter().any(|sun| is_sun(&sun));
+    let is_solar = ["am0", "am15", "astmg173"].iter().any(is_sun);
     let is_solar = is_solar || ["solarspectr", "sunspectr", "spectrumofthesun"].iter().any(|sun| short.contains(sun));
     let told = is_solar.then_some(Role::Illuminant);
     let is_observer = ["ciexyz", "xyz2e", "xyz10e", "linss"].iter().any(|observer| short.contains(observer));
     let told = told.or(is_observer.then_some(Role::Camera));
+    let is_chart = ["colorchart", "colourchart", "colorchecker", "macbeth"].iter().any(|chart| short.contains(chart));
+    let told = told.or(is_chart.then_some(Role::Reflectance));
+    let is_lamp = ["pressuresodium", "pressuremercury", "sodiumlamp"].iter().any(|lamp| short.contains(lamp));
+    let told = told.or(is_lamp.then_some(Role::Illuminant));
     let mut roles = told.into_iter().chain(words.iter().filter_map(|word| role_of_word(word)));
     let first = roles.next()?;
     Some((first, roles.all(|role| role == first)))
@@ -183,7 +202,8 @@ fn role_of_word(word: &str) -> Option<Role> {
         (
             Role::Camera,
             "sensitiv|responsiv|quantum|efficien|camera",
-            "ssf|ssfs|srf|srfs|rsr|camspec|qe|eqe|iqe|cmf|cmfs|cmos|response|responses|photopic|scotopic|melanopic|observer|observers",
+            "ssf|ssfs|srf|srfs|rsr|camspec|qe|eqe|iqe|cmf|cmfs|cmos|response|responses|photopic|scotopic|melanopic|observer|observers|\
+             receptor|receptors|photoreceptor|photoreceptors|cones|fundamentals",
         ),
     ];
     let starts = |starts: &str| starts.split('|').any(|start| word.starts_with(start));

@@ -355,7 +355,10 @@ impl Columns {
         {
             return Err(ReadError::NotWavelengthColumn { column, columns });
         }
-        let at = self.named.filter(|&at| at < columns);
+        // Several names too many for all rows: nothing says which column has which.
+        let surplus = header.names.iter().skip(self.most_cells.max(self.width));
+        let surplus = surplus.filter(|name| !is_one(&name.to_lowercase(), NOTES)).count() > 1;
+        let at = self.named.filter(|&at| at < columns && !surplus);
         let bare = header.names.is_empty() && header.units.is_empty() && !layout.every_column;
         let at = at.or_else(|| axes::after_count(&self.cells).filter(|_| bare));
         let at = at.or_else(|| self.cells.iter().position(|column| !is_empty(column))).unwrap_or(0);
@@ -371,9 +374,7 @@ impl Columns {
             log.push(Warning::TextColumns { count: 1, column: column + 1, name });
         } else {
             warn_of_names_without_columns(&header, columns, log);
-            // Several names too many for all rows: nothing says which column has which.
-            let surplus = header.names.iter().skip(self.most_cells.max(self.width));
-            if surplus.filter(|name| !is_one(&name.to_lowercase(), NOTES)).count() > 1 {
+            if surplus {
                 header.names.truncate(at + 1);
                 header.units.truncate(at + 1);
             }
@@ -381,6 +382,9 @@ impl Columns {
         let (next, rows, label_unit) = (self.next, self.lines.len(), self.label_unit);
         let values = self.cells.split_off(at + 1);
         let wavelengths = self.cells.pop().unwrap_or_default();
+        if bare && values.len() > 1 && axes::may_count(&wavelengths, &values[0]) {
+            log.push(Warning::MayCount([at + 1, at + 2]));
+        }
         let find = || axes::find(&header, at, &wavelengths, &self.cells, &values);
         let is_told = layout.every_column || !header.own.is_empty();
         let axes = if is_told { axes::Axes::default() } else { find() };

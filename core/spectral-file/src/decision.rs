@@ -72,6 +72,8 @@ choices! {
         Terahertz = "frequencies in terahertz", "THz";
         /// Frequencies in Hz, taken likewise.
         Hertz = "frequencies in hertz", "Hz";
+        /// Energies E of photons in eV, taken as the vacuum wavelength h c/(e E) with h c/e = 1239.841 984 eV nm.
+        Electronvolt = "photon energies in electronvolts", "eV";
     }
 
     /// Separator of cells.

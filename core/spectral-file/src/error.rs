@@ -107,14 +107,14 @@ pub enum ReadError {
     )]
     AmbiguousUnit { line: usize, min: f64, max: f64 },
     #[error(
-        "line {line}: numbers from {max} down to {min} may be energies of photons (eV) or micrometers: choose micrometers, or convert to \
-         wavelengths in nm"
+        "line {line}: numbers from {max} down to {min} may be energies of photons (eV) or micrometers: choose the one that \
+         they are"
     )]
     AmbiguousEnergies { line: usize, min: f64, max: f64 },
     #[error("line {0}: commas separate numbers and seem to mark fractions: choose decimal commas, or points if not")]
     AmbiguousCommas(usize),
     #[error(
-        "line {0}: the header gives neither wavelengths nor wave numbers nor THz: convert to wavelengths in nm, or choose the unit"
+        "line {0}: the header gives neither wavelengths nor wave numbers nor THz nor eV: convert to wavelengths in nm, or choose the unit"
     )]
     NotWavelengths(usize),
     #[error("line {line}: “{kind}” is no spectrum of light over wavelengths, wave numbers or frequencies")]

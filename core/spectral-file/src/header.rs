@@ -2,6 +2,8 @@
 
 mod names;
 
+use std::collections::BTreeSet;
+
 use chromascope_text::unguarded;
 
 use crate::clues::{self, Clues};
@@ -27,6 +29,8 @@ pub(super) struct Header {
     pub(super) names: Vec<String>,
     pub(super) units: Vec<String>,
     pub(super) units_line: Option<usize>,
+    /// Names of samples, by column, in a row of its own.
+    pub(super) samples: Vec<String>,
     /// True if the line of names omits that of the wavelengths.
     pub(super) shifted: bool,
     pub(super) x_unit: Option<(usize, XUnit)>,
@@ -120,6 +124,7 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
             header.take_comment(number, key, value);
             continue;
         }
+        header.take_name_row(line, layout);
         let (line, body) = (unmarked(line), comment(line));
         if let Some((name, unit)) = body.and_then(ecsv_column) {
             header.named_units.push((number, name.to_owned(), unit.to_owned()));
@@ -169,6 +174,7 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
             header.take_unit_cell(line, &names, layout);
             (header.line, header.names) = (Some(line), names);
         }
+        header.settle_names();
         header.settle_units(layout);
         if let Some((line, XUnit::Wavelength(WavelengthUnit::Wavenumber))) = header.x_unit.filter(|_| header.raman) {
             header.x_unit = Some((line, XUnit::Other));
@@ -323,6 +329,35 @@ impl Header {
         }
     }
 
+    /// Takes the names of the samples in a row that is headed so, wherever it stands: `Name,apple,,orange`.
+    fn take_name_row(&mut self, line: &str, layout: &Layout) {
+        let mut cells = layout.dialect().cells(line);
+        if layout.width > 2 && cells.next().is_some_and(|key| is_one(&lower(key), "name|names|sample name|channel")) {
+            self.samples = std::iter::once(String::new()).chain(cells.map(str::to_owned)).collect();
+        }
+    }
+
+    /// Tells columns of one head apart by the names of their samples.
+    fn settle_names(&mut self) {
+        let named = |column: usize| self.samples.get(column).is_some_and(|name| !name.is_empty());
+        let columns: Vec<usize> = (1..self.names.len()).filter(|column| named(*column)).collect();
+        let heads: Vec<&str> = columns.iter().map(|column| &*self.names[*column]).collect();
+        let told: BTreeSet<&str> = columns.iter().map(|column| &*self.samples[*column]).collect();
+        let alike = heads.iter().all(|head| *head == heads[0] && !head.is_empty());
+        let are_numbers = |names: &[&str]| names.iter().all(|name| name.parse::<f64>().is_ok());
+        let numbered = are_numbers(&heads) && !are_numbers(&told.iter().copied().collect::<Vec<_>>());
+        if heads.len() < 2 || !(alike || numbered) || told.len() < columns.len() {
+            return;
+        }
+        self.units.resize(self.units.len().max(self.names.len()), String::new());
+        for column in columns {
+            let head = std::mem::replace(&mut self.names[column], self.samples[column].clone());
+            if self.units[column].is_empty() {
+                self.units[column] = head;
+            }
+        }
+    }
+
     /// Gives columns the units that comments give to their names; in a table of one curve to that.
     fn settle_units(&mut self, layout: &Layout) {
         let bare = |name: &str| lower(name).replace(['_', '-'], " ");
@@ -390,9 +425,9 @@ impl Header {
         let begins_with_energy = |(name, _): (&str, &str)| {
             name.split_whitespace().count() <= 2 && !name.contains(',') && !lower(text).contains("wavelength")
         };
-        let is_energy =
-            text.trim().eq_ignore_ascii_case("ev") || text.split_once("(eV)").is_some_and(begins_with_energy);
-        let alone = alone.or_else(|| is_energy.then_some(XUnit::Other));
+        let energy = text.split_once("(eV)").filter(|parts| begins_with_energy(*parts)).map(|(name, _)| name);
+        let energy = energy.or_else(|| text.trim().eq_ignore_ascii_case("ev").then_some(""));
+        let alone = alone.or_else(|| header_terms::x_unit(&format!("{} (eV)", energy?)));
         self.x_unit = self.x_unit.or(alone.map(|unit| (line, unit)));
         if let Some(name) = stated_name(text).filter(|_| self.comment("title").is_none()) {
             self.note(line, "title", name);

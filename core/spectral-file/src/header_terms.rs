@@ -412,6 +412,7 @@ const SIZES: &str = "size|diameter|radius|thickness|distance";
 pub(super) fn x_unit(text: &str) -> Option<XUnit> {
     const SHIFTS: &str = "raman shift|raman-shift|ramanshift|rel. 1/cm|rel. cm|relative wavenumber|relative wave number|shift (cm|\
         shift [cm|shift/cm";
+    const ENERGIES: &str = "ev|energy|energies|photon|e|h|hv|hν|hω|ħω|hbar|omega|ω|ν|wavelength|x";
     let text = bracketed(lower(text)).replace('⁻', "-").replace('¹', "1");
     if let Some(unit) = bracketed_letter(&text) {
         return Some(unit);
@@ -421,8 +422,11 @@ pub(super) fn x_unit(text: &str) -> Option<XUnit> {
         return Some(XUnit::Other);
     }
     let energies = has_part(&text, "energ|(ev)|[ev]") || words(&text).count() == 1;
+    // Those of photons, and no band gaps, losses or binding energies.
+    let photons = || words(&text.replace('_', " ")).all(|word| is_one(word, ENERGIES));
     let wave_numbers = has_part(&text, WAVE_NUMBERS) || text == "wn";
     let unit = words(&text).find_map(|word| match word {
+        "ev" if energies && photons() => Some(XUnit::Wavelength(WavelengthUnit::Electronvolt)),
         "ev" | "kev" | "mev" if energies => Some(XUnit::Other),
         "hz" => Some(XUnit::Wavelength(WavelengthUnit::Hertz)),
         "ghz" | "phz" | "1/nm" => Some(XUnit::Other),

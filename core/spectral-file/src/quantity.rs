@@ -23,16 +23,10 @@ use crate::grid::{Grid, RawCurve};
 use crate::options::ReadOptions;
 use crate::text::{excerpt, has_part, is_one};
 use crate::unit_text::{is_per_energy, is_per_photon, is_photons, names_photons, says_per_photon};
-use crate::units::{self, Amount, Per, SPEED_OF_LIGHT_NM_THZ};
+use crate::units::{self, Amount, PLANCK_LIGHT_EV_NM, PLANCK_LIGHT_J_NM, Per, SPEED_OF_LIGHT_NM_THZ};
 use crate::warning::Warning;
 use crate::watch::Log;
 use crate::{decimal, header_terms};
-
-/// The Planck constant times the speed of light, in J nm.
-const PLANCK_LIGHT_J_NM: f64 = 6.626_070_15e-34 * 299_792_458e9;
-
-/// The Planck constant times the speed of light, in eV nm.
-const PLANCK_LIGHT_EV_NM: f64 = PLANCK_LIGHT_J_NM / 1.602_176_634e-19;
 
 /// The wavelength in nanometers where relative photons and relative energies have the same value.
 const SAME_AT_NM: f64 = 550.0;
@@ -211,12 +205,11 @@ pub(super) const DECISION: &str = "Spectral unit";
 
 /// The guess that lights over frequencies or wave numbers are per nanometer, if no unit states otherwise.
 fn unsaid(grid: &Grid, axis: &Decided<WavelengthUnit>) -> Option<Decision> {
-    let other = matches!(axis.value, WavelengthUnit::Terahertz | WavelengthUnit::Hertz | WavelengthUnit::Wavenumber);
     let per_nm = |curve: &RawCurve| {
         let unit = curve.unit.as_deref().and_then(units::parse);
         unit.is_some_and(|unit| matches!(unit.per, Per::Nanometer))
     };
-    if !other || grid.curves.iter().all(per_nm) {
+    if !axis.value.is_inverse() || grid.curves.iter().all(per_nm) {
         return None;
     }
     let why = format!("The axis is {}, but nothing says per what the power is", axis.value);
@@ -241,8 +234,12 @@ fn renamed(name: &str) -> String {
     });
     let name = kept.collect::<Vec<_>>().join(" ");
     // `Red_PhotonFlux`
-    let joined = ["PhotonFlux", "photon_flux", "Photon_Flux", "Photon_flux"];
-    let name = joined.iter().fold(name, |name, words| name.replace(words, "").trim_matches('_').to_owned());
+    let lower = name.to_ascii_lowercase();
+    let joined = ["photonflux", "photon_flux"].iter().find_map(|words| Some((lower.find(words)?, words.len())));
+    let name = match joined {
+        Some((at, length)) => [&name[..at], &name[at + length..]].concat().trim_matches('_').to_owned(),
+        None => name,
+    };
     if name.is_empty() || names_photons(&name) {
         return "Spectral power".to_owned();
     }

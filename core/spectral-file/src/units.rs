@@ -284,6 +284,11 @@ fn plain(c: char) -> char {
 }
 
 impl WavelengthUnit {
+    /// True for what is inverse to wavelengths: equal steps of it are none of these.
+    pub(super) fn is_inverse(self) -> bool {
+        matches!(self, Self::Wavenumber | Self::Terahertz | Self::Hertz | Self::Electronvolt)
+    }
+
     /// The unit of a symbol or name, such as `nm`, `um`, `µm` or `Micrometers`.
     pub(super) fn from_symbol(symbol: &str) -> Option<Self> {
         // Every unit has a letter: numbers cut in pieces by a wrong separator have none.
@@ -313,6 +318,7 @@ impl WavelengthUnit {
             Self::Wavenumber => clean(1e7 / value),
             Self::Terahertz => clean(SPEED_OF_LIGHT_NM_THZ / value),
             Self::Hertz => clean(SPEED_OF_LIGHT_NM_THZ * 1e12 / value),
+            Self::Electronvolt => clean(PLANCK_LIGHT_EV_NM / value),
         }
     }
 
@@ -327,9 +333,14 @@ impl WavelengthUnit {
             Self::Wavenumber => clean(1e7 / nm),
             Self::Terahertz => clean(SPEED_OF_LIGHT_NM_THZ / nm),
             Self::Hertz => clean(SPEED_OF_LIGHT_NM_THZ * 1e12 / nm),
+            Self::Electronvolt => clean(PLANCK_LIGHT_EV_NM / nm),
         }
     }
 }
+
+/// The Planck constant times the speed of light, in J nm and in eV nm, exact (SI 2019).
+pub(super) const PLANCK_LIGHT_J_NM: f64 = 6.626_070_15e-34 * 299_792_458e9;
+pub(super) const PLANCK_LIGHT_EV_NM: f64 = PLANCK_LIGHT_J_NM / 1.602_176_634e-19;
 
 /// The speed of light in vacuum in nm THz, exact.
 pub(super) const SPEED_OF_LIGHT_NM_THZ: f64 = 299_792.458;

@@ -201,6 +201,9 @@ pub enum Warning {
     /// A column of one number, which may mark rows.
     #[error("{first} is {value} at all wavelengths{}", if *.count > 1 { format!("; constant too: {} more", .count - 1) } else { String::new() })]
     Constant { count: usize, first: String, value: f64 },
+    /// Numbers that may only count the rows were taken for wavelengths. Holds their column and that of others in order, from 1.
+    #[error("Column {} goes up by ones, and column {} is in order too: choose that if it holds the wavelengths", .0[0], .0[1])]
+    MayCount([usize; 2]),
     /// Nothing names the column of the wavelengths. Holds it, from 1.
     #[error("The numbers of column {0} are in order, as wavelengths are: taken for these")]
     UnnamedWavelengths(usize),

@@ -72,6 +72,7 @@ fn unit_from_range(grid: &Grid) -> Result<Decided<WavelengthUnit>, ReadError> {
         && max > 3300.0
         && min < 2000.0
         && max <= 10_000.0
+        || falls > rises && max > 1200.0 && min >= 390.0 && has_steps_of_a_transform(&grid.wavelengths)
     {
         // No spectrometer for light reaches so far from there, but those for the infrared all do.
         WavelengthUnit::Wavenumber
@@ -151,6 +152,12 @@ fn is_even(numbers: &[f64]) -> bool {
     steps.all(|step| (step - first).abs() <= 0.01 * first.abs())
 }
 
+/// True for equal steps that are no tenths, as those down the wave numbers of a Fourier transform are.
+fn has_steps_of_a_transform(numbers: &[f64]) -> bool {
+    let tenths = numbers.windows(2).next().map_or(0.0, |pair| 10.0 * (pair[1] - pair[0]));
+    is_even(numbers) && (tenths - tenths.round()).abs() > 0.05 && tenths.abs() > 4.0
+}
+
 fn is_bare(grid: &Grid) -> bool {
     let named = !grid.header.names.is_empty() || !grid.header.comments.is_empty() || grid.header.mentioned.is_some();
     grid.curves.len() == 1 && !named
@@ -203,7 +210,8 @@ pub(super) fn to_nanometers(
     // A single zero before the table, as of an empty row, is no wavelength.
     let zero = nm[0] == 0.0 && count == 1 && FEW < nm.len();
     let guessed = (unit.value, unit.certainty) == (WavelengthUnit::Nanometer, Certainty::Guess);
-    let enough = within.len() >= count || unit.value == WavelengthUnit::Micrometer;
+    let far = matches!(unit.value, WavelengthUnit::Micrometer | WavelengthUnit::Electronvolt);
+    let enough = within.len() >= count || far;
     let sound = ordered && within.len() > 1 && enough && (least > 0.0 || zero);
     // From light that is seen on, a last few in the far infrared do not make it another unit.
     let few = zero || (RANGE_NM.start()..&VISIBLE_TO_NM).contains(&&nm[0]) && FEW * count <= nm.len();
@@ -221,7 +229,8 @@ pub(super) fn to_nanometers(
     if !mixed && (guessed && !few || !sound || marked[within].contains(&true)) {
         return Err(error);
     }
-    let (from_nm, to_nm) = extent(nm.iter().copied().filter(out));
+    // The energy zero has no wavelength.
+    let (from_nm, to_nm) = extent(nm.iter().copied().filter(|nm| out(nm) && nm.is_finite()));
     if zero && marked[0] {
         name_by_corner(grid);
     }
@@ -284,8 +293,7 @@ pub(super) fn warn(grid: &Grid, step: Steps, unit: WavelengthUnit, log: &mut Log
     let width = |at: usize| wavelengths[at + 1] - wavelengths[at];
     // Even steps of wave numbers and frequencies are none of wavelengths.
     let inverse = |at: usize| 1.0 / wavelengths[at] - 1.0 / wavelengths[at + 1];
-    let inverse_median = matches!(unit, WavelengthUnit::Wavenumber | WavelengthUnit::Terahertz | WavelengthUnit::Hertz)
-        .then(|| median((0..wavelengths.len() - 1).map(inverse).collect()));
+    let inverse_median = unit.is_inverse().then(|| median((0..wavelengths.len() - 1).map(inverse).collect()));
     let is_wide = |at: usize| inverse_median.is_none_or(|median| inverse(at) > TIMES * median);
     let holes = (0..wavelengths.len() - 1).filter(|at| width(*at) > LEAST_NM.max(TIMES * step.median) && is_wide(*at));
     // The first of the widest.

@@ -242,3 +242,10 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn a_first_row_wider_than_the_table_is_no_crash() {
+    // Found by fuzzing.
+    let found = error("nm;[\n6,,,,]\n\r5\n50,,,\n55,,,0");
+    assert_eq!(found, ReadError::NotANumber { line: 2, column: 5, text: "]".to_owned() });
+}

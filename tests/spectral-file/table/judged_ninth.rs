@@ -1,9 +1,7 @@
 //! What judges of real files found, a ninth time: tidy tables with gaps, bands with a word behind them, words in the names of files,
 //! columns beside spectra, and files of CRAIC, GER, `SCiO`, Spextool, `StellarNet` and Texas Instruments.
 
-use spectral_file::{
-    Certainty, Orientation, Quantity, ReadError, ReadOptions, Role, Source, Values, Warning, WavelengthUnit, read,
-};
+use spectral_file::{Certainty, Orientation, Quantity, ReadError, Role, Values, Warning, WavelengthUnit};
 
 use super::{error, lines, names, of_file, ok, rows};
 
@@ -140,7 +138,8 @@ fn points_read_off_plots_may_go_back() {
 fn a_unit_may_stand_alone() {
     let table = ok(&format!("Gold: 207-1823nm\nANGSTROMS\nNK\n{}", lines(|nm| format!("  {nm}0.  1.4  1.3\n"))));
     assert_eq!((table.reading.wavelength_unit.value, table.reading.range_nm[0]), (WavelengthUnit::Angstrom, 400.0));
-    assert!(matches!(error("SiO2\neV\nNK\n6.6 1.5 0\n6.5 1.5 0\n6.4 1.5 0\n"), ReadError::NotWavelengths(_)));
+    let silica = ok("SiO2\neV\nNK\n6.6 1.5 0\n6.5 1.5 0\n6.4 1.5 0\n");
+    assert_eq!(silica.reading.wavelength_unit.value, WavelengthUnit::Electronvolt);
 }
 
 #[test]
@@ -211,11 +210,10 @@ fn words_for_lights_and_axes() {
     assert_eq!(dutch.reading.wavelength_unit.value, WavelengthUnit::Wavenumber);
     let lamp = format!("Illuminant_index;3\nirradiance_unit;0\nnm;Raw\n{}", lines(|nm| format!("{nm};0.5\n")));
     assert_eq!(ok(&lamp).role.value, Role::Unknown);
-    let energies =
-        read(Source { path: "Au-eV.txt", ..Source::from("0.6 1.5\n0.8 1.6\n1.1 1.7\n") }, &ReadOptions::default());
-    assert!(matches!(energies, Err(ReadError::NotWavelengths(_))));
-    let energies = "% Hbar Omega (eV) Decay rate\n1.0 0.2\n1.5 0.3\n2.1 0.4\n";
-    assert!(matches!(error(energies), ReadError::NotWavelengths(1)));
+    let energies = of_file("Au-eV.txt", "0.6 1.5\n0.8 1.6\n1.1 1.7\n").reading.wavelength_unit;
+    assert_eq!((energies.value, energies.certainty), (WavelengthUnit::Electronvolt, Certainty::Guess));
+    let energies = ok("% Hbar Omega (eV) Decay rate\n1.0 0.2\n1.5 0.3\n2.1 0.4\n");
+    assert_eq!(energies.reading.wavelength_unit.value, WavelengthUnit::Electronvolt);
     assert_eq!(of_file("sky_angstroms.txt", "2500 1\n2600 2\n2700 3\n").reading.range_nm, [250.0, 270.0]);
     assert_eq!(names(&ok(&format!("Lambda\tH2O\nnm\tcm-1*mM-1\n{}", rows("\t")))), ["H2O"]);
     let named = format!("## Type: detector\n## Name: Orca\nwavelength,qe\n{}", lines(|nm| format!("{nm},0.5\n")));

@@ -74,7 +74,7 @@ fn units_and_columns_in_comments() {
 
 #[test]
 fn axes_across() {
-    let heads = (375..425).map(|nm| format!(",{}", 2 * nm)).collect::<String>();
+    let heads = (375..425).map(|nm| format!(",{}", 2 * nm)).collect::<Vec<_>>().concat();
     let row = |nm: usize| format!(",\"17{nm}\"{}\n", ",0.5".repeat(50));
     let table = ok(&format!("\"Axisscale\",{heads}\n{}", lines(row)));
     assert_eq!((table.curves.len(), table.reading.range_nm), (40, [750.0, 848.0]));
@@ -128,4 +128,53 @@ fn columns_of_wavelengths_by_their_numbers() {
     assert_eq!(table.curves[2].wavelengths_nm[0], 400.7);
     let sizes = error(&format!("Size (d.nm)\tIntensity (%)\n{}", lines(|nm| format!("{nm}\t0.5\n"))));
     assert_eq!(sizes, ReadError::NotWavelengths(1));
+}
+
+#[test]
+fn names_above_heads_that_are_alike() {
+    let rows = lines(|nm| format!("{nm};0.5;0.6\n"));
+    for (heads, named) in [
+        ("Name;lamp 1;lamp 2\nDate;1;2\n\nWavelength [nm];Ee [W/(sqm*nm)];Ee [W/(sqm*nm)]\n", ["lamp 1", "lamp 2"]),
+        ("Channel;C10;C12\nnm;650;705\n", ["C10", "C12"]),
+        ("#lambda;Ext;kR\n#nm;mag;mag\n#---\n", ["Ext", "kR"]),
+    ] {
+        assert_eq!(names(&ok(&format!("{heads}{rows}"))), named, "{heads}");
+    }
+    let pairs = lines(|nm| format!("{nm},0.5,{}.5,0.6\n", nm + 9));
+    assert_eq!(names(&ok(&format!("Red,Red,Green,Green\nX,Y,X,Y\n{pairs}"))), ["Red", "Green"]);
+    let named = ok(&format!("Wavelength, nm, S0,S1\n{}", lines(|nm| format!("{nm},0.5,0.6\n"))));
+    assert_eq!(names(&named), ["S0", "S1"]);
+    // More words than columns name none.
+    let words = format!("#,wavelength,[nm],,refractive,index,n,,k\n{}", lines(|nm| format!("{nm},1.5,0.5,\n")));
+    assert_eq!(ok(&words).reading.range_nm, [400.0, 439.0]);
+}
+
+#[test]
+fn photon_energies_are_read() {
+    for head in ["Energy_eV", "E (eV)", "Photon energy [eV]", "hν (eV)", "energy(eV)"] {
+        let table = ok(&format!("{head},a\n{}", lines(|at| format!("{}.{at},0.5\n", at / 200))));
+        assert_eq!(table.reading.wavelength_unit.value, WavelengthUnit::Electronvolt, "{head}");
+    }
+    // From zero on, and far beyond.
+    let table = ok(&format!("# energy(eV) alpha\n0.0 0\n{}30 1\n", lines(|at| format!("2.{at} 0.5\n"))));
+    assert_eq!((table.curves[0].values.len(), table.reading.range_nm[0].round()), (40, 508.0));
+    for head in ["Binding energy (eV)", "Energy loss (eV)", "Bandgap (eV)", "Energy (keV)"] {
+        assert_eq!(error(&format!("{head},a\n2.1,1\n2.2,2\n2.3,3\n")), ReadError::NotWavelengths(1), "{head}");
+    }
+}
+
+#[test]
+fn what_may_be_otherwise_is_said() {
+    let index = ok(&lines(|at| format!("{at}\t18.{at}\t0.5\n")));
+    assert!(index.warnings.contains(&Warning::MayCount([1, 2])), "{:?}", index.warnings);
+    let mixed = ok(&format!("nm,X_bar,Y_bar,Z_bar,D65\n{}", lines(|nm| format!("{nm},1,1,1,90\n"))));
+    assert_eq!(mixed.role.certainty, Certainty::Open);
+    let heads =
+        (0..40).map(|at| format!(",{:.3}", 3.857f64.mul_add(-f64::from(at), 1801.264))).collect::<Vec<_>>().concat();
+    let infrared = ok(&format!("type{heads}\ncollagen{}\n", ",0.5".repeat(40)));
+    assert_eq!(infrared.reading.wavelength_unit.value, WavelengthUnit::Wavenumber);
+    // One scale: dark in what is seen, and far above one beyond.
+    let of = |at: usize| format!("{},{},{}\n", 10 * at - 3600, if at % 8 < 3 { 3.1 } else { 0.2 }, 20);
+    let table = of_file("b_Transmittance.csv", &format!("wl,a,b\n{}", lines(of)));
+    assert_eq!((table.reading.values.value, table.curves[0].values[0]), (Values::Percent, 0.031));
 }

@@ -280,3 +280,18 @@ fn the_layouts_of_other_tests_survive_other_line_ends() {
         }
     }
 }
+
+#[test]
+fn samples_of_the_first_version_of_cxf_have_single_values() {
+    let of = |at: usize| {
+        format!(
+            "<Sample><Name>patch {at}</Name><SampleAttribute><Spectrum Conditions=\"3\">\n<Value Name=\"400\">0.{at}</Value>\n\
+             <Value Name=\"410\">0.5</Value>\n</Spectrum></SampleAttribute></Sample>\n"
+        )
+    };
+    let kind = "<Attribute Name=\"Physical.SpectrumType\">AmbientLight</Attribute>";
+    let text = format!("<CXF Version=\"1.0\"><SampleSet><Name>set</Name>{}{}</SampleSet>{kind}</CXF>", of(1), of(2));
+    let table = ok(&text);
+    assert_eq!((names(&table), table.role.value), (vec!["patch 1", "patch 2"], Role::Illuminant));
+    assert_eq!(samples(&table, 1), [(400.0, 0.2), (410.0, 0.5)]);
+}

@@ -212,6 +212,14 @@ pub(super) fn after_count(cells: &[Vec<f64>]) -> Option<usize> {
     units::plausible(low, high, false).then_some(1)
 }
 
+/// True for wavelengths that may count the rows instead, beside numbers that may be wavelengths.
+pub(super) fn may_count(wavelengths: &[f64], column: &[f64]) -> bool {
+    const MOST: f64 = 100.0;
+    let is_axis = |low: f64, high: f64| units::plausible(low, high, true) || low >= 0.1 && high <= MOST;
+    let in_order = || ends(column).is_some_and(|(low, high)| is_axis(low, high));
+    wavelengths.len() >= FEWEST_COUNTED && counts(wavelengths) && in_order()
+}
+
 /// The unit of a column of wavelengths and that of the first, where they differ.
 fn units(header: &Header, first: usize, column: usize) -> Option<(WavelengthUnit, WavelengthUnit)> {
     match (unit(header, column), unit(header, first)) {

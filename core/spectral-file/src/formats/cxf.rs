@@ -1,4 +1,4 @@
-//! `CxF3`: spectra of named objects in XML, as lists of values or as single points.
+//! `CxF3`: spectra of named objects in XML, as lists of values or as single points; and `CxF` 1, whose samples have single values.
 
 use std::borrow::Cow;
 
@@ -18,7 +18,7 @@ impl Reader {
 }
 
 pub(super) const FORMAT: Format =
-    Format { reader: Reader::CXF, fits: |head| xml::fits(head, |root| root == "CxF"), read };
+    Format { reader: Reader::CXF, fits: |head| xml::fits(head, |root| matches!(root, "CxF" | "CXF")), read };
 
 fn read(text: &str, _: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadError> {
     let mut walk = Walk::new(text);
@@ -82,6 +82,7 @@ impl Content {
                 let name = element.attribute("Name")?.or(element.attribute("Id")?);
                 self.objects.push(name.map(Cow::into_owned));
             }
+            "Sample" => self.objects.push(None),
             "ColorSpecification" => self.specification = element.attribute("Id")?.map(Cow::into_owned),
             name if is_spectrum(name) => self.points = Vec::new(),
             _ => {}
@@ -94,8 +95,17 @@ impl Content {
             self.header.note(element.line, element.name(), element.content());
         }
         match element.name() {
-            "Object" => {
+            "Object" | "Sample" => {
                 self.objects.pop();
+            }
+            "Name" if inside == "Sample" => {
+                self.objects.pop();
+                self.objects.push(Some(element.content().to_owned()));
+            }
+            "Attribute" if element.attribute("Name")?.as_deref() == Some("Physical.SpectrumType") => {
+                let kind = element.content();
+                let kind = if matches!(kind, "AmbientLight" | "Emission") { "Emission" } else { kind };
+                self.spectra.iter_mut().for_each(|spectrum| kind.clone_into(&mut spectrum.label));
             }
             "ColorSpecification" => self.specification = None,
             "WavelengthRange" => {
@@ -104,9 +114,10 @@ impl Content {
                     self.ranges.push((id, Range::of(element)?));
                 }
             }
-            "SpectralPoint" => {
-                let wavelength = element.number_attribute("WL")?.unwrap_or(f64::NAN);
-                let place = element.pair("WL", log);
+            point @ ("SpectralPoint" | "Value") if point != "Value" || inside == "Spectrum" => {
+                let attribute = if point == "Value" { "Name" } else { "WL" };
+                let wavelength = element.number_attribute(attribute)?.unwrap_or(f64::NAN);
+                let place = element.pair(attribute, log);
                 let sample = Sample { wavelength, value: element.number()?, line: element.line, place };
                 push(&mut self.points, &mut self.total, sample)?;
             }

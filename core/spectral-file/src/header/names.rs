@@ -31,6 +31,11 @@ impl Header {
             if is_rule(&cells) {
                 continue;
             }
+            // `Wavelength, nm,R` without quotes.
+            if cells.len() == layout.width + 1 && WavelengthUnit::from_symbol(cells[1].trim()).is_some() {
+                let unit = cells.remove(1);
+                cells[0] = format!("{} ({})", cells[0], unit.trim());
+            }
             let headed = |cells: &[String]| cells.iter().any(|name| header_terms::names_wavelengths(name));
             // R's names of rows have no head.
             let short = cells.len() > 1 && cells.len() + 1 == layout.width;
@@ -67,7 +72,9 @@ impl Header {
             if is_key_and_value(layout, &cells) {
                 return;
             }
-            if self.units.is_empty() && is_unit_row(&cells) {
+            let is_below_names =
+                || alike(&cells) && rows.clone().next().is_some_and(|row| has_names(layout, row.1, section));
+            if self.units.is_empty() && (is_unit_row(&cells) || is_below_names()) {
                 self.take_unit_cell(number, &cells, layout);
                 self.units = cells;
                 self.units_line = Some(number);
@@ -143,7 +150,9 @@ impl Header {
             name.clone_into(&mut above[*column]);
         } else {
             let nameless = |column: usize| self.names.get(column).is_some_and(String::is_empty);
-            let is_own = |column: &usize| !(is_axis(*column) && nameless(*column));
+            // A name over both columns of a pair is that of the values.
+            let is_twice = |column: usize| cells.get(column + 1) == cells.get(column);
+            let is_own = |column: &usize| !(is_axis(*column) && (nameless(*column) || is_twice(*column)));
             let filled: Vec<usize> =
                 (0..cells.len()).filter(|column| !cells[*column].is_empty()).filter(is_own).collect();
             let split = layout.dialect().cells(line).count();
@@ -257,6 +266,18 @@ impl Header {
     }
 }
 
+/// Returns whether all columns behind the first, of at least two, have one head.
+fn alike(cells: &[String]) -> bool {
+    cells.len() > 2 && !cells[1].is_empty() && cells[1..].iter().all(|cell| *cell == cells[1])
+}
+
+/// Returns whether a line names each column otherwise, the first as wavelengths.
+fn has_names(layout: &Layout, line: &str, section: Section<'_>) -> bool {
+    let names = cells(layout, line, section);
+    let told = names.iter().collect::<BTreeSet<_>>().len() == names.len();
+    names.len() == layout.width && told && header_terms::names_axis(&names[0]) && !names.contains(&String::new())
+}
+
 /// Returns whether a line is a rule, or the key of a section such as `[LAMPDATA]`, between names and numbers.
 fn is_rule(cells: &[String]) -> bool {
     match cells {
@@ -282,8 +303,8 @@ fn cells(layout: &Layout, line: &str, section: Section<'_>) -> Vec<String> {
         return cells;
     }
     let row = first_rows(section, layout).next().unwrap_or_default();
-    let filled = layout.dialect().cells(row).enumerate().filter(|(_, cell)| !cell.is_empty());
-    let filled: Vec<usize> = filled.map(|(column, _)| column).take(layout.width).collect();
+    let filled = layout.dialect().cells(row).take(layout.width).enumerate().filter(|(_, cell)| !cell.is_empty());
+    let filled: Vec<usize> = filled.map(|(column, _)| column).collect();
     let others = [Delimiter::Tab, Delimiter::Semicolon, Delimiter::Comma, Delimiter::Spaces].into_iter();
     let others = others.filter(|delimiter| *delimiter != layout.delimiter.value);
     let mut others = others.map(|delimiter| split(Dialect { delimiter, ..layout.dialect() }, line));

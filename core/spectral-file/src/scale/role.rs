@@ -42,6 +42,10 @@ fn stated(grid: &Grid) -> Option<Decided<Role>> {
         ));
     }
     let names: Vec<&str> = grid.curves.iter().take(MOST_CHANNELS + 1).map(|curve| curve.name.as_str()).collect();
+    if let Some(light) = names.iter().find(|name| channels(&names).is_some() && header_terms::names_illuminant(name)) {
+        let why = format!("The curves are named {}, of which {light} is a light", names.join(", "));
+        return Some(Decided::open(Role::Unknown, why));
+    }
     let channels = channels(&names).map(|(_, letters)| {
         let why = format!("The curves are named {}", names.join(", "));
         // Primaries of displays are called R, G and B too.

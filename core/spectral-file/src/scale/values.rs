@@ -130,16 +130,15 @@ fn by_numbers(grid: &Grid, trusted: bool, evidence: &Evidence, log: &mut Log<'_>
     if percent == 0 {
         return (Decided::guess(Values::Plain, evidence.words()), same(Values::Plain));
     }
-    // Dark samples in percent look like fractions: where most curves are percent, all are.
+    // Dark samples in percent look like fractions, and those that are seen only in part like neither: where most curves are percent,
+    // all are that reach no farther.
     let others = if plain > percent { Values::Plain } else { Values::Percent };
-    let columns: Vec<Values> = looks
-        .iter()
-        .map(|looks| match looks {
-            Some(Looks::Percent) => Values::Percent,
-            Some(Looks::Neither) => Values::Plain,
-            Some(Looks::Plain) | None => others,
-        })
-        .collect();
+    let as_percent = |(looks, span): (&Option<Looks>, &Option<Span>)| match looks {
+        Some(Looks::Percent) => Values::Percent,
+        Some(Looks::Neither) if span.is_none_or(|span| span.max > largest) => Values::Plain,
+        Some(Looks::Neither | Looks::Plain) | None => others,
+    };
+    let columns: Vec<Values> = looks.iter().zip(&evidence.curves).map(as_percent).collect();
     warn_of_others(grid, &columns, log);
     let small = || grid.curves.iter().zip(&looks).filter(|(_, looks)| **looks == Some(Looks::Plain));
     if let Some((curve, _)) = small().next().filter(|_| others == Values::Percent) {
@@ -232,7 +231,7 @@ impl Span {
         let band = self.run >= BAND && self.max >= BAND_PEAK && self.max <= largest;
         if mostly || band {
             Looks::Percent
-        } else if self.high <= ABOVE_FRACTIONS && self.median <= ABOVE_FRACTIONS {
+        } else if self.high <= ABOVE_FRACTIONS && self.median <= ABOVE_FRACTIONS && self.run < BAND {
             Looks::Plain
         } else {
             Looks::Neither

@@ -137,13 +137,14 @@ pub(super) struct InspectArguments {
 const READING: &str = "Overrides";
 
 const ROLES: [&str; 5] = ["camera", "reflectance", "transmittance", "illuminant", "unknown"];
-const UNITS: [(&str, &[&str]); 6] = [
+const UNITS: [(&str, &[&str]); 7] = [
     ("nanometer", &["nm"]),
     ("micrometer", &["um", "µm"]),
     ("angstrom", &[]),
     ("wavenumber", &[]),
     ("terahertz", &["thz"]),
     ("hertz", &["hz"]),
+    ("electronvolt", &["ev"]),
 ];
 const DELIMITERS: [&str; 6] = ["comma", "comma-space", "semicolon", "tab", "spaces", "elements"];
 const MARKS: [&str; 2] = ["point", "comma"];
