@@ -215,9 +215,14 @@ pub(super) fn after_count(cells: &[Vec<f64>]) -> Option<usize> {
 /// True for wavelengths that may count the rows instead, beside numbers that may be wavelengths.
 pub(super) fn may_count(wavelengths: &[f64], column: &[f64]) -> bool {
     const MOST: f64 = 100.0;
-    let is_axis = |low: f64, high: f64| units::plausible(low, high, true) || low >= 0.1 && high <= MOST;
+    // Refractive indices are in order too.
+    const LEAST_RATIO: f64 = 1.3;
+    let is_axis = |low: f64, high: f64| {
+        (units::plausible(low, high, true) || low >= 0.1 && high <= MOST) && high >= LEAST_RATIO * low
+    };
+    let are_edges = column.iter().zip(wavelengths).all(|(edge, nm)| (edge - nm).abs() <= 1.0);
     let in_order = || ends(column).is_some_and(|(low, high)| is_axis(low, high));
-    wavelengths.len() >= FEWEST_COUNTED && counts(wavelengths) && in_order()
+    wavelengths.len() >= FEWEST_COUNTED && counts(wavelengths) && !are_edges && in_order()
 }
 
 /// The unit of a column of wavelengths and that of the first, where they differ.
