@@ -60,6 +60,21 @@ impl Group {
         self.start + self.wavelengths.len()
     }
 
+    /// Returns whether a line is a header of other wavelengths: as long as no row of values is that rises or falls all the way.
+    pub(super) fn is_like(&self, dialect: Dialect, line: &str) -> bool {
+        let mut last = None;
+        let mut count = 0;
+        for cell in dialect.cells(line).skip(self.start) {
+            match dialect.parse(cell) {
+                Cell::Number(nm) if RANGE_NM.contains(&nm) && last.is_none_or(|last| nm > last) => last = Some(nm),
+                Cell::Gap if count > 0 => break,
+                _ => return false,
+            }
+            count += 1;
+        }
+        count > FEWEST_UNSAID
+    }
+
     pub(super) fn count(&self) -> usize {
         self.wavelengths.iter().filter(|wavelength| !wavelength.is_nan()).count()
     }

@@ -1,5 +1,6 @@
 //! Evidence beside a file: its metadata, and the names of the file and its folders.
 
+use crate::decimal::extent;
 use crate::decision::{Decided, Role, WavelengthUnit};
 use crate::grid::Grid;
 use crate::header_terms::XUnit;
@@ -60,7 +61,7 @@ fn take_role(path: &str, stem: &[String], grid: &mut Grid) {
 fn take_clues(stem: &[String], folder: &[String], grid: &mut Grid) {
     let role = grid.beside.as_ref().map(|beside| beside.value);
     let title = stem.join(" ");
-    let says_absorbance = |words: &[String]| words.iter().any(|word| word.starts_with("absorban"));
+    let says_absorbance = |words: &[String]| words.iter().any(|word| word.starts_with("absorban") || word == "od");
     let is_absorbance =
         says_absorbance(stem) || says_absorbance(folder) && stem.iter().all(|word| role_of_word(word).is_none());
     let is_absorbance = is_absorbance && role == Some(Role::Transmittance);
@@ -93,10 +94,15 @@ fn take_axis(path: &str, stem: &[String], names: &[&str], grid: &mut Grid) {
         (header.x_unit, grid.label_unit) = (Some((line.unwrap_or(1), XUnit::Other)), None);
     }
     // `Au-Ovidio-eV`, `flux_angstroms`
+    let infrared = || (0..names.len().min(2)).any(|at| has(at, "mir|ftir|atr"));
     let parts = || file_stem(path).into_iter().flat_map(|stem| stem.split(|c: char| !c.is_alphanumeric()));
     if grid.unit.is_none() && header.x_unit.is_none() {
         let angstroms = stem.iter().any(|word| is_one(word, "angstrom|angstroms")).then_some(WavelengthUnit::Angstrom);
         let unit = angstroms.or(parts().any(|part| part == "eV").then_some(WavelengthUnit::Electronvolt));
+        let (low, high) = extent(grid.wavelengths.iter().copied());
+        // Where nothing but infrared is measured in nanometers, they are larger.
+        let numbers = low >= 390.0 && (1200.0..=5000.0).contains(&high) && infrared();
+        let unit = unit.or(numbers.then_some(WavelengthUnit::Wavenumber));
         grid.unit = unit.map(|unit| Decided::guess(unit, "The file is named so"));
     }
 }
@@ -198,10 +204,10 @@ fn role_of_word(word: &str) -> Option<Role> {
              incandescent|fluorescent|emission",
         ),
         (Role::Reflectance, "reflec|remission|albedo", "refl|rfl|colorchecker|colourchecker|munsell"),
-        (Role::Transmittance, "transmi|absorban", "filter|filters|trans|gel|gels|wratten"),
+        (Role::Transmittance, "transmi|absorban", "od|filter|filters|trans|gel|gels|wratten"),
         (
             Role::Camera,
-            "sensitiv|responsiv|quantum|efficien|camera",
+            "sensitiv|specsens|responsiv|quantum|efficien|camera",
             "ssf|ssfs|srf|srfs|rsr|camspec|qe|eqe|iqe|cmf|cmfs|cmos|response|responses|photopic|scotopic|melanopic|observer|observers|\
              receptor|receptors|photoreceptor|photoreceptors|cones|fundamentals",
         ),

@@ -298,8 +298,11 @@ pub(super) fn role_in_prose(text: &str) -> Option<Role> {
     let word = lower(key.trim());
     let condition = key.len() < text.len() && (word.starts_with("illuminant") || word.ends_with("_unit"));
     // A luminance is measured of lights.
-    let light = key.len() < text.len() && lower(key.trim()) == "luminance";
-    if light { Some(Role::Illuminant) } else { role(text).filter(|_| !condition) }
+    let light = key.len() < text.len() && word == "luminance";
+    // Of a lock-in amplifier.
+    let number = |rest: &str| rest.trim_start_matches([':', '=', ' ', '\t']).starts_with(|c: char| c.is_ascii_digit());
+    let setting = word == "sensitivity" && number(&text[key.len()..]);
+    if light { Some(Role::Illuminant) } else { role(text).filter(|_| !(condition || setting)) }
 }
 
 /// Returns whether a line says that the numbers below are coefficients for the calibration of an instrument.
@@ -539,6 +542,9 @@ pub(super) fn names_wavelengths(text: &str) -> bool {
     // As their unit alone does.
     const UNITS: &str = "[nm]|(nm)|[µm]|(µm)|[μm]|(μm)|[um]|(um)|[cm-1]|(cm-1)";
     let text = without_argument(&bracketed(lower(text)));
+    if words(&text).next().is_some_and(|word| is_one(word, SIZES)) {
+        return false;
+    }
     if has_part(&text, CALLED) || has_part(&text, UNITS) {
         return true;
     }

@@ -17,7 +17,7 @@ pub(super) const FEWEST_ROWS: usize = 3;
 const NAMES: &str = "temperature|temp|temp.|t_amb|ambient temperature|detector temperature|ccd temperature|temperatur|\
     température|temperatura|time|elapsed time|elapsed|timestamp|time stamp|date|day|hour|zeit|temps|tiempo|integration time|\
     exposure|exposure time|humidity|relative humidity|rel. humidity|imgs|noise|snr|s/n|bandwidth|bandpass|fwhm|pressure|air pressure|voltage|battery|battery voltage|\
-    altitude|latitude|longitude|calibration|theta|phase|theta device|gain|flag|flags|quality flag|bias";
+    altitude|latitude|longitude|repeat|repeats|calibration|theta|phase|theta device|gain|flag|flags|quality flag|bias";
 
 /// What detectors give, recorded beside what was made of it: last words of names.
 const SIGNALS: &str = "current|photocurrent|voltage";
@@ -102,7 +102,8 @@ fn is_companion(curve: &RawCurve, made: bool) -> bool {
     });
     let bare = name.split(['(', '[']).next().unwrap_or_default().trim().replace('_', " ");
     let signal = made && bare.rsplit(' ').next().is_some_and(|word| is_one(word, SIGNALS));
-    let named = signal || is_one(&bare, NAMES) || is_one(&name, NAMES);
+    let width = bare.split(' ').any(|word| is_one(word, "wdth|width|halfwidth|binwidth"));
+    let named = signal || width || is_one(&bare, NAMES) || is_one(&name, NAMES);
     let of_all = is_one(&bare, OF_SPECTRUM) && curve.values.iter().all(|value| *value == curve.values[0]);
     let counts =
         header_terms::is_count(&bare) && !bare.contains(' ') && curve.values.len() > 2 && counts(&curve.values);

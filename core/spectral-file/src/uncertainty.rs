@@ -95,12 +95,12 @@ fn say_doubtful(grid: &Grid, log: &mut Log<'_>) {
     }
 }
 
-/// The term of a column such as `dR` or `d_refl` behind one of that name, or of that name with a number: `QE183`, `dQE`. Derivatives
+/// The term of a column such as `dR`, `eR` or `d_refl` behind one of that name, or of that name with a number: `QE183`, `dQE`. Derivatives
 /// are called so too, but have signs, or units of their own.
 fn of_difference(curves: &[RawCurve], index: usize) -> Option<Term> {
     const NEAR: usize = 100;
     let own = &curves[index];
-    let name = own.name.strip_prefix('d')?.trim_start_matches(['_', ' ']);
+    let name = own.name.strip_prefix(['d', 'e'])?.trim_start_matches(['_', ' ']);
     let is_its = |curve: &&RawCurve| {
         let stem = || curve.name.trim_end_matches(|c: char| c.is_ascii_digit()).trim_end_matches(['_', ' ']);
         curve.named && (curve.name == name || stem() == name)

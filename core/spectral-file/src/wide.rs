@@ -14,7 +14,12 @@ use crate::warning::{LineList, Warning};
 use crate::watch::Log;
 use crate::{header_terms, no_curve, uncertainty_terms, unit_text};
 
-pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> Result<Grid, ReadError> {
+/// The table, and the line of the next header of wavelengths.
+pub(super) fn read(
+    section: Section<'_>,
+    layout: &Layout,
+    log: &mut Log<'_>,
+) -> Result<(Grid, Option<usize>), ReadError> {
     debug_assert_eq!(layout.orientation.value, Orientation::Across);
     let Some(across) = &layout.across else { return Err(ReadError::NoNumbers) };
     let mut lines = Lines::of(section).skip_while(|(number, _)| *number < across.line);
@@ -31,6 +36,7 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
     header.clues.take(across.line, header_line);
     let mut rows = Rows::new(dialect, across, leading, suspects(dialect, &heads, across));
     let mut read = section.byte;
+    let mut next = None;
     for (number, line) in lines {
         read += line.len() + 1;
         log.at(read)?;
@@ -44,6 +50,10 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
             continue;
         }
         if !line.trim_ascii().is_empty() && line != header_line && is_row() && !is_types() {
+            if !rows.curves.is_empty() && group.is_like(dialect, line) {
+                next = Some(number);
+                break;
+            }
             rows.take(number, line)?;
         }
     }
@@ -95,7 +105,7 @@ pub(super) fn read(section: Section<'_>, layout: &Layout, log: &mut Log<'_>) -> 
     if bad.contains(&true) {
         grid.remove(&bad);
     }
-    Ok(grid)
+    Ok((grid, next))
 }
 
 /// The name of a group: what its wavelengths have in common, what stands before them, or its columns.

@@ -1,7 +1,7 @@
 //! What judges of real files found, a tenth time: glass catalogs, logarithms, zeros that were not computed, units in lists, columns
 //! described in comments, and wavelengths beyond the range.
 
-use spectral_file::{Certainty, Quantity, ReadError, Reader, Role, Values, Warning, WavelengthUnit};
+use spectral_file::{Certainty, Quantity, ReadError, ReadOptions, Reader, Role, Values, Warning, WavelengthUnit, read};
 
 use super::{error, lines, names, of_file, ok};
 
@@ -177,4 +177,54 @@ fn what_may_be_otherwise_is_said() {
     let of = |at: usize| format!("{},{},{}\n", 10 * at - 3600, if at % 8 < 3 { 3.1 } else { 0.2 }, 20);
     let table = of_file("b_Transmittance.csv", &format!("wl,a,b\n{}", lines(of)));
     assert_eq!((table.reading.values.value, table.curves[0].values[0]), (Values::Percent, 0.031));
+}
+
+#[test]
+fn headers_of_wavelengths_below_one_another_begin_tables() {
+    let table = |name: &str, from: usize| {
+        let heads = (0..40).map(|at| format!(",{}.5", from + 3 * at)).collect::<Vec<_>>().concat();
+        format!("{name}{heads}\n{name}1{}\n{name}2{}\n\n", ",0.5".repeat(40), ",0.25".repeat(40))
+    };
+    let text = format!("{}{}{}", table("leek", 400), table("apple", 430), table("pear", 410));
+    let first = ok(&text);
+    assert_eq!((names(&first), first.reading.parts.len()), (vec!["leek1", "leek2"], 3));
+    assert!(first.warnings.iter().any(|warning| matches!(warning, Warning::MoreTables(_))));
+    let options = ReadOptions { part: Some(2), ..ReadOptions::default() };
+    let second = read(text.as_bytes(), &options).unwrap();
+    assert_eq!((names(&second), second.reading.range_nm), (vec!["apple1", "apple2"], [430.5, 547.5]));
+}
+
+#[test]
+fn columns_beside_spectra_by_their_words() {
+    let table = ok(&format!("wl_um flx eflx rms_renorm\n{}", lines(|nm| format!("0.{nm} 12.5 0.5 0.9\n"))));
+    assert_eq!(names(&table), ["flx", "rms_renorm"]);
+    assert!(table.curves[0].uncertainty.is_some());
+    assert!(table.warnings.iter().any(|warning| matches!(warning, Warning::MaybeUncertainty { count: 1, .. })));
+    let table = ok(&format!("wl_center depth wv_wdth Repeat\n{}", lines(|nm| format!("{nm} 0.{nm} 0.03 2\n"))));
+    assert_eq!(names(&table), ["depth"]);
+    let heads = "Species;SIZE (um);CODE";
+    let bands = (40..80).map(|nm| format!(";{nm}0")).collect::<Vec<_>>().concat();
+    assert_eq!(ok(&format!("{heads}{bands}\nalga;0.5;A1{}\n", ";0.5".repeat(40))).curves.len(), 1);
+    let amplifier = ok(&format!("Sensitivity: 500 nV\nnm,R [V]\n{}", lines(|nm| format!("{nm},0.5\n"))));
+    assert_eq!(amplifier.role.certainty, Certainty::Open);
+}
+
+#[test]
+fn labels_of_jcamp_above_plain_rows() {
+    let labels = "##TITLE=tablet\n##DATA TYPE=INFRARED SPECTRUM\n##XUNITS=1/CM\n##YUNITS=%T\n";
+    let table = ok(&format!("{labels}{}", lines(|cm| format!("{cm}.5\t33.6\n"))));
+    assert_eq!((names(&table), table.reading.values.value), (vec!["tablet"], Values::Percent));
+    assert_eq!(table.reading.reader.value, Reader::TABLE);
+}
+
+#[test]
+fn names_of_files_tell_scales_and_units() {
+    let rows = lines(|nm| format!("{nm},0.5\n"));
+    assert_eq!(of_file("OD_algae_2022.csv", &rows).reading.values.value, Values::Absorbance);
+    let infrared = lines(|cm| format!("{}.5,0.5\n", cm * 10 - 3000));
+    assert_eq!(of_file("MIR_purees.csv", &infrared).reading.wavelength_unit.value, WavelengthUnit::Wavenumber);
+    let lights = ok(&format!("nm,A,B,D50,ID65\n{}", lines(|nm| format!("{nm},90,90,90,90\n"))));
+    assert_eq!((lights.role.value, lights.role.certainty), (Role::Illuminant, Certainty::Guess));
+    let fields = ok(&format!("nm,A,B,C\n{}", lines(|nm| format!("{nm},0.5,0.5,0.5\n"))));
+    assert_eq!(fields.role.certainty, Certainty::Open);
 }

@@ -25,7 +25,20 @@ pub(super) const FORMAT: Format =
 /// Returns whether a text begins with the label `##TITLE=`, with blanks in it or not, or with another one before `##DATA TYPE=`.
 pub(super) fn recognize(start: &str) -> bool {
     let Some((key, _)) = start.strip_prefix("##").and_then(|record| record.split_once('=')) else { return false };
-    !key.contains('\n') && label(key) == "TITLE" || start.contains("DATA TYPE=")
+    let begins = !key.contains('\n') && label(key) == "TITLE" || start.contains("DATA TYPE=");
+    begins && !is_plain(start)
+}
+
+/// Returns whether rows of numbers stand below labels of which none begins data.
+fn is_plain(start: &str) -> bool {
+    const DATA: &str = "XYDATA|XYPOINTS|PEAK TABLE|PEAKTABLE|PEAK ASSIGNMENTS|DATA TABLE|DATATABLE|NTUPLES|RADATA|END";
+    let key = |line: &str| line.strip_prefix("##").and_then(|rest| Some(label(rest.split_once('=')?.0)));
+    let has_data = || start.lines().filter_map(key).any(|key| DATA.split('|').any(|data| label(data) == key));
+    let is_row = |line: &str| {
+        let mut cells = line.split_whitespace().map(|cell| cell.parse::<f64>().is_ok());
+        cells.next() == Some(true) && cells.next() == Some(true)
+    };
+    start.lines().any(is_row) && !has_data()
 }
 
 /// Reads the processed spectrum, or all spectra if none is a raw one beside it.

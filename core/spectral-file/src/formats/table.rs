@@ -128,8 +128,8 @@ fn one(
     let read = match layout.orientation.value {
         Orientation::Down => columns::read(section, &layout, log)?,
         Orientation::Across => {
-            let grid = wide::read(section, &layout, log)?;
-            columns::Read { grid, next: None, bytes: 0, note: None }
+            let (grid, next) = wide::read(section, &layout, log)?;
+            columns::Read { grid, next, bytes: section.text.len(), note: None }
         }
     };
     Ok((layout, read))

@@ -240,6 +240,17 @@ fn name_of_light(grid: &Grid, titles: &[&str], is_light: fn(&str) -> bool) -> Op
 }
 
 fn of_illuminants(grid: &Grid) -> Option<Decided<Role>> {
+    // Beside others, A is no field of a chart.
+    let is_letter = |curve: &&RawCurve| is_one(&curve.name, "A|B|C|E");
+    let (letters, others): (Vec<_>, Vec<_>) = grid.curves.iter().partition(is_letter);
+    let all = others.iter().all(|curve| header_terms::names_illuminant(&curve.name));
+    if let [first, _, ..] = others[..]
+        && !letters.is_empty()
+        && all
+    {
+        let why = format!("“{}” is the name of a standard illuminant, as all are", excerpt(&first.name));
+        return Some(Decided::guess(Role::Illuminant, why));
+    }
     let name = name_of_light(grid, &["title", "name"], header_terms::names_illuminant)?;
     Some(Decided::certain(Role::Illuminant, format!("“{name}” is the name of a standard illuminant")))
 }

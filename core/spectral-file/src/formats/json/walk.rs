@@ -28,7 +28,7 @@ const ABOUT: &str = "metadata|meta|header|info|attributes|properties|units|batch
 const VALUES: &str = "|values|value|data|spectrum|spectra|spectral data|spd|spds|samples|measurements|measurement|curve|curves|\
     entries|y|val|amplitude|response|results|items|power";
 /// Keys of wavelengths that are no words for them elsewhere.
-const AXES: &str = "wvl|wvls|wls|nm|bands|ssf bands";
+const AXES: &str = "wvl|wvls|wls|nm|grid nm|nm grid|wavelength grid|bands|ssf bands";
 /// Words for the ends of a range.
 const ENDS: &str = "domain|span|range|extent|limits";
 /// Keys of spectra that are conditions of the measurement.
