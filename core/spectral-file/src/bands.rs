@@ -64,15 +64,18 @@ impl Group {
     pub(super) fn is_like(&self, dialect: Dialect, line: &str) -> bool {
         let mut last = None;
         let mut count = 0;
+        // Counts that rise with the time of exposure run elsewhere.
+        let near = |nm: f64, own: Option<&f64>| own.is_some_and(|own| nm < 2.0 * own && *own < 2.0 * nm);
         for cell in dialect.cells(line).skip(self.start) {
             match dialect.parse(cell) {
+                Cell::Number(nm) if count == 0 && !near(nm, self.wavelengths.first()) => return false,
                 Cell::Number(nm) if RANGE_NM.contains(&nm) && last.is_none_or(|last| nm > last) => last = Some(nm),
                 Cell::Gap if count > 0 => break,
                 _ => return false,
             }
             count += 1;
         }
-        count > FEWEST_UNSAID
+        count > FEWEST_UNSAID && last.is_some_and(|nm| near(nm, self.wavelengths.last()))
     }
 
     pub(super) fn count(&self) -> usize {

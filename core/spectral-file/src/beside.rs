@@ -96,7 +96,7 @@ fn take_axis(path: &str, stem: &[String], names: &[&str], grid: &mut Grid) {
     // `Au-Ovidio-eV`, `flux_angstroms`
     let infrared = || (0..names.len().min(2)).any(|at| has(at, "mir|ftir|atr"));
     let parts = || file_stem(path).into_iter().flat_map(|stem| stem.split(|c: char| !c.is_alphanumeric()));
-    if grid.unit.is_none() && header.x_unit.is_none() {
+    if grid.unit.is_none() && header.x_unit.is_none() && grid.label_unit.is_none() {
         let angstroms = stem.iter().any(|word| is_one(word, "angstrom|angstroms")).then_some(WavelengthUnit::Angstrom);
         let unit = angstroms.or(parts().any(|part| part == "eV").then_some(WavelengthUnit::Electronvolt));
         let (low, high) = extent(grid.wavelengths.iter().copied());

@@ -134,14 +134,7 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
         let united = |names: &str| names.ends_with([')', ']']);
         let text = body.unwrap_or(line);
         header.take_of_program(number, text, &near);
-        if let Some((unit, names)) = aria_columns(text).filter(|(_, names)| names.len() == layout.width) {
-            (header.x_unit, named_above) = (Some((number, unit)), Some((number, names)));
-            continue;
-        }
-        // Spextool's spectra of NASA's Infrared Telescope Facility name no columns.
-        if text.contains("Xspextool") && named_above.is_none() && (3..=SPEXTOOL.len()).contains(&layout.width) {
-            named_above = Some((number, SPEXTOOL[..layout.width].iter().map(|&name| name.to_owned()).collect()));
-        }
+        named_above = named_above.or_else(|| Some((number, header.names_of_program(number, text, layout)?)));
         if named_above.is_none() && (layout.width > 2 || united(text)) {
             let names = names::split_otherwise(layout, text).filter(|names| layout.width > 2 || united(&names[0]));
             named_above = names.map(|names| (number, names));
@@ -283,6 +276,17 @@ impl Header {
         if text.contains("rruff.info") {
             self.x_unit = Some((number, XUnit::Other));
         }
+    }
+
+    /// Names of the columns as only some programs and databases give them.
+    fn names_of_program(&mut self, number: usize, text: &str, layout: &Layout) -> Option<Vec<String>> {
+        // Spextool's spectra of NASA's Infrared Telescope Facility name no columns.
+        if text.contains("Xspextool") && (3..=SPEXTOOL.len()).contains(&layout.width) {
+            return Some(SPEXTOOL[..layout.width].iter().map(|&name| name.to_owned()).collect());
+        }
+        let (unit, names) = aria_columns(text).filter(|(_, names)| names.len() == layout.width)?;
+        self.x_unit = Some((number, unit));
+        Some(names)
     }
 
     pub(super) fn take_comment(&mut self, line: usize, key: &str, value: &str) {

@@ -35,28 +35,7 @@ pub(super) fn read(
     header.line = Some(across.line);
     header.clues.take(across.line, header_line);
     let mut rows = Rows::new(dialect, across, leading, suspects(dialect, &heads, across));
-    let mut read = section.byte;
-    let mut next = None;
-    for (number, line) in lines {
-        read += line.len() + 1;
-        log.at(read)?;
-        // Names of samples may begin with `#` too.
-        let is_row = || comment(line).is_none() || rows.parse(number, line).is_ok_and(|row| row.is_some());
-        let is_types = || rows.curves.is_empty() && dialect.cells(line).all(names_type);
-        // Units and the end of the header in `SeaBASS` files, whose names of columns are a line of it.
-        if let Some(units) = line.strip_prefix('/').filter(|_| rows.curves.is_empty()) {
-            let unit = units.strip_prefix("units=").and_then(|units| dialect.cells(units).nth(group.start));
-            header.unit = unit.and_then(unit_text::unit_cell).or(header.unit);
-            continue;
-        }
-        if !line.trim_ascii().is_empty() && line != header_line && is_row() && !is_types() {
-            if !rows.curves.is_empty() && group.is_like(dialect, line) {
-                next = Some(number);
-                break;
-            }
-            rows.take(number, line)?;
-        }
-    }
+    let next = rows.take_all(lines, (header_line, section.byte), &mut header, log)?;
     rows.warn(&heads, log)?;
     header.mentioned = rows.mentioned.or(header.mentioned);
     let count = rows.curves.len();
@@ -66,10 +45,6 @@ pub(super) fn read(
         group.suffix.clone_into(&mut curve.label);
         curve.unit = unit.and_then(|unit| unit_text::unit_cell(unit)).or_else(|| header.unit.clone());
     }
-    let specular = header_terms::says_specular(&group.prefix).then_some(Role::Reflectance);
-    let role = specular.or_else(|| header_terms::role_of_bands(&group.prefix));
-    let role = role.or_else(|| header_terms::role_of_bands(&group.suffix).filter(|_| group.prefix.is_empty()));
-    let role = role.map(|role| Decided::guess(role, format!("The bands are named {}", group.prefix)));
     let parts = across.groups.iter().filter(|_| across.groups.len() > 1).map(|group| Part {
         line: across.first_row,
         name: group_name(dialect, &heads, group),
@@ -96,7 +71,7 @@ pub(super) fn read(
         header,
         label_unit: group.unit,
         rows: count,
-        role,
+        role: role_of(group),
         parts,
         part,
         ..Grid::default()
@@ -106,6 +81,14 @@ pub(super) fn read(
         grid.remove(&bad);
     }
     Ok((grid, next))
+}
+
+/// The role that the names of the bands suggest.
+fn role_of(group: &Group) -> Option<Decided<Role>> {
+    let specular = header_terms::says_specular(&group.prefix).then_some(Role::Reflectance);
+    let role = specular.or_else(|| header_terms::role_of_bands(&group.prefix));
+    let role = role.or_else(|| header_terms::role_of_bands(&group.suffix).filter(|_| group.prefix.is_empty()));
+    role.map(|role| Decided::guess(role, format!("The bands are named {}", group.prefix)))
 }
 
 /// The name of a group: what its wavelengths have in common, what stands before them, or its columns.
@@ -208,6 +191,36 @@ impl<'a> Rows<'a> {
             mentioned: None,
             broken: None,
         }
+    }
+
+    /// Takes the rows, up to the next header of wavelengths; returns its line.
+    fn take_all(
+        &mut self,
+        lines: impl Iterator<Item = (usize, &'a str)>,
+        (header_line, start): (&str, usize),
+        header: &mut Header,
+        log: &mut Log<'_>,
+    ) -> Result<Option<usize>, ReadError> {
+        let group = self.across.group();
+        let mut read = start;
+        for (number, line) in lines {
+            read += line.len() + 1;
+            log.at(read)?;
+            // Names of samples may begin with `#` too.
+            let is_row = || comment(line).is_none() || self.parse(number, line).is_ok_and(|row| row.is_some());
+            let is_types = || self.curves.is_empty() && self.dialect.cells(line).all(names_type);
+            // Units and the end of the header in `SeaBASS` files, whose names of columns are a line of it.
+            if let Some(units) = line.strip_prefix('/').filter(|_| self.curves.is_empty()) {
+                let unit = units.strip_prefix("units=").and_then(|units| self.dialect.cells(units).nth(group.start));
+                header.unit = unit.and_then(unit_text::unit_cell).or(header.unit.take());
+            } else if !line.trim_ascii().is_empty() && line != header_line && is_row() && !is_types() {
+                if !self.curves.is_empty() && group.is_like(self.dialect, line) {
+                    return Ok(Some(number));
+                }
+                self.take(number, line)?;
+            }
+        }
+        Ok(None)
     }
 
     /// Reports omitted lines; a line among the rows that is none is an error.

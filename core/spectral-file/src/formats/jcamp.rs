@@ -31,7 +31,8 @@ pub(super) fn recognize(start: &str) -> bool {
 
 /// Returns whether rows of numbers stand below labels of which none begins data.
 fn is_plain(start: &str) -> bool {
-    const DATA: &str = "XYDATA|XYPOINTS|PEAK TABLE|PEAKTABLE|PEAK ASSIGNMENTS|DATA TABLE|DATATABLE|NTUPLES|RADATA|END";
+    const DATA: &str =
+        "JCAMPDX|XYDATA|XYPOINTS|PEAK TABLE|PEAKTABLE|PEAK ASSIGNMENTS|DATA TABLE|DATATABLE|NTUPLES|RADATA|END";
     let key = |line: &str| line.strip_prefix("##").and_then(|rest| Some(label(rest.split_once('=')?.0)));
     let has_data = || start.lines().filter_map(key).any(|key| DATA.split('|').any(|data| label(data) == key));
     let is_row = |line: &str| {

@@ -31,11 +31,7 @@ impl Header {
             if is_rule(&cells) {
                 continue;
             }
-            // `Wavelength, nm,R` without quotes.
-            if cells.len() == layout.width + 1 && WavelengthUnit::from_symbol(cells[1].trim()).is_some() {
-                let unit = cells.remove(1);
-                cells[0] = format!("{} ({})", cells[0], unit.trim());
-            }
+            join_unit(&mut cells, layout);
             let headed = |cells: &[String]| cells.iter().any(|name| header_terms::names_wavelengths(name));
             // R's names of rows have no head.
             let short = cells.len() > 1 && cells.len() + 1 == layout.width;
@@ -47,11 +43,7 @@ impl Header {
             let exact = is_comment || layout.delimiter.value == Delimiter::Spaces && !quoted;
             let is_source = is_comment && has_part(line, "://|www.|ftp.");
             if cells.len() < 2 || exact && cells.len() != layout.width || is_source {
-                let unit_alone = cells.len() == 1 && self.units.is_empty() && is_unit(&cells[0]);
-                if unit_alone {
-                    self.x_unit = header_terms::x_unit(&cells[0]).map(|unit| (number, unit));
-                    self.units_line = Some(number);
-                }
+                let unit_alone = self.take_unit_alone(number, &cells);
                 // Rows that are named themselves go on above one of units, or one left empty.
                 if unit_alone && keyed(layout, rows.clone()).next().is_some()
                     || cells.len() == 1 && is_row_key(&cells[0])
@@ -99,6 +91,16 @@ impl Header {
             }
             return;
         }
+    }
+
+    /// Takes the unit of the wavelengths from a line that has nothing else.
+    fn take_unit_alone(&mut self, number: usize, cells: &[String]) -> bool {
+        let unit_alone = cells.len() == 1 && self.units.is_empty() && is_unit(&cells[0]);
+        if unit_alone {
+            self.x_unit = header_terms::x_unit(&cells[0]).map(|unit| (number, unit));
+            self.units_line = Some(number);
+        }
+        unit_alone
     }
 
     fn set_names(&mut self, number: usize, names: Vec<String>) {
@@ -263,6 +265,14 @@ impl Header {
         if let Some(unit) = cells.get(column).and_then(|cell| header_terms::x_unit(cell)) {
             self.x_unit = Some((number, unit));
         }
+    }
+}
+
+/// Joins `Wavelength, nm,R`, which lacks quotes.
+fn join_unit(cells: &mut Vec<String>, layout: &Layout) {
+    if cells.len() == layout.width + 1 && WavelengthUnit::from_symbol(cells[1].trim()).is_some() {
+        let unit = cells.remove(1);
+        cells[0] = format!("{} ({})", cells[0], unit.trim());
     }
 }
 
