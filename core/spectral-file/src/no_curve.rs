@@ -193,10 +193,10 @@ pub(super) fn leave_out_uncomputed(grid: &mut Grid, log: &mut Log<'_>) {
             || header_terms::values(&curve.label).is_some_and(|v| v != Values::Plain)
     };
     let is_zero = |curve: &RawCurve| curve.values.iter().all(|value| *value == 0.0 || value.is_nan());
-    let marks: Vec<bool> = grid.curves.iter().map(|curve| says(curve) && is_zero(curve)).collect();
-    let measured = grid.curves.iter().filter(|curve| !is_zero(curve)).collect::<Vec<_>>();
-    let Some(first) = marks.iter().position(|mark| *mark).filter(|_| !measured.is_empty()) else { return };
-    if measured.iter().any(|curve| says(curve)) {
+    let marks: Vec<bool> = grid.curves.iter().map(|curve| is_zero(curve) && says(curve)).collect();
+    let Some(first) = marks.iter().position(|mark| *mark) else { return };
+    let mut measured = grid.curves.iter().filter(|curve| !is_zero(curve)).peekable();
+    if measured.peek().is_none() || measured.any(says) {
         return;
     }
     log.push(Warning::Uncomputed {

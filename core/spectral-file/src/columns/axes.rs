@@ -86,13 +86,21 @@ pub(super) fn find(header: &Header, at: usize, wavelengths: &[f64], before: &[Ve
 fn has_ends_of(wavelengths: &[f64], column: &[f64]) -> bool {
     const CLOSE: f64 = 0.03;
     const MOST_BACK: usize = 10;
-    let Some((low, high)) = ends(wavelengths).filter(|_| wavelengths.len() >= FEWEST_COUNTED) else { return false };
+    let edges = |values: &[f64]| {
+        let mut present = values.iter().copied().filter(|value| !value.is_nan());
+        let first = present.next()?;
+        let last = present.next_back()?;
+        Some((first.min(last), first.max(last)))
+    };
+    let (Some((low, high)), Some((from, to))) = (edges(wavelengths), edges(column)) else { return false };
+    let near = |a: f64, b: f64| (a - b).abs() < CLOSE * (high - low);
+    if !near(low, from) || !near(high, to) || ends(wavelengths).is_none() {
+        return false;
+    }
     let column: Vec<f64> = column.iter().copied().filter(|value| !value.is_nan()).collect();
     let steps = || column.windows(2).map(|pair| pair[1] - pair[0]);
     let back = steps().filter(|step| *step < 0.0).count().min(steps().filter(|step| *step > 0.0).count());
-    let near = |a: f64, b: f64| (a - b).abs() < CLOSE * (high - low);
-    let ends = |from: f64, to: f64| near(low, from.min(to)) && near(high, from.max(to));
-    column.len() >= FEWEST_COUNTED && MOST_BACK * back < column.len() && ends(column[0], column[column.len() - 1])
+    column.len() >= FEWEST_COUNTED && MOST_BACK * back < column.len()
 }
 
 pub(super) fn column_list(header: &Header, columns: &[usize]) -> String {
