@@ -82,8 +82,11 @@ fn take_axis(path: &str, stem: &[String], names: &[&str], grid: &mut Grid) {
     let is_raman = (0..names.len().min(LEVELS - 1)).any(names_raman);
     let header = &mut grid.header;
     let column = grid.wavelength_column.unwrap_or(1).saturating_sub(1);
-    let is_wavelength =
-        |name: &str| header_terms::begins_with_wavelengths(name) && !name.to_lowercase().contains("number");
+    // Renishaw heads shifts as Wave.
+    let is_wavelength = |name: &str| {
+        let name = name.to_lowercase();
+        header_terms::begins_with_wavelengths(&name) && !name.contains("number") && name.trim_matches('#') != "wave"
+    };
     // Axes of Raman spectra are shifts, which number no wavelengths.
     if is_raman
         && !header.name(column).is_some_and(is_wavelength)

@@ -529,7 +529,7 @@ fn without_argument(lower: &str) -> String {
 
 /// Returns whether a column's header is about wavelengths before all: it begins or ends with their name, units aside.
 pub(super) fn begins_with_wavelengths(text: &str) -> bool {
-    const NAMES: &str = "wavelength|wavelengths|wl|wvl|λ|lambda|wavenumber";
+    const NAMES: &str = "wavelength|wavelengths|wave|wl|wvl|λ|lambda|wavenumber";
     let text = without_argument(&lower(text));
     let mut words = words(&text).filter(|word| WavelengthUnit::from_symbol(word).is_none());
     let first = words.next();

@@ -17,7 +17,7 @@ pub(super) const FEWEST_ROWS: usize = 3;
 const NAMES: &str = "temperature|temp|temp.|t_amb|ambient temperature|detector temperature|ccd temperature|temperatur|\
     température|temperatura|time|elapsed time|elapsed|timestamp|time stamp|date|day|hour|zeit|temps|tiempo|integration time|\
     exposure|exposure time|humidity|relative humidity|rel. humidity|imgs|noise|snr|s/n|bandwidth|bandpass|fwhm|pressure|air pressure|voltage|battery|battery voltage|\
-    altitude|latitude|longitude|repeat|repeats|calibration|theta|phase|theta device|gain|flag|flags|quality flag|bias";
+    altitude|latitude|longitude|repeat|repeats|n contrib|n obs|n spectra|calibration|theta|phase|theta device|gain|flag|flags|quality flag|bias";
 
 /// What detectors give, recorded beside what was made of it: last words of names.
 const SIGNALS: &str = "current|photocurrent|voltage";

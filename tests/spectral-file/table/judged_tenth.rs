@@ -1,7 +1,9 @@
 //! What judges of real files found, a tenth time: glass catalogs, logarithms, zeros that were not computed, units in lists, columns
 //! described in comments, and wavelengths beyond the range.
 
-use spectral_file::{Certainty, Quantity, ReadError, ReadOptions, Reader, Role, Values, Warning, WavelengthUnit, read};
+use spectral_file::{
+    Certainty, Quantity, ReadError, ReadOptions, Reader, Role, Source, Values, Warning, WavelengthUnit, read,
+};
 
 use super::{error, lines, names, of_file, ok};
 
@@ -118,6 +120,11 @@ fn names_of_files_and_folders() {
     assert_eq!(role("team_1_5.txt", 1).1, Certainty::Open);
     let raman = |heads: &str| of_file("Raman/gold.txt", &format!("{heads}\n{}", lines(|nm| format!("{nm} 0.5 0.1\n"))));
     assert_eq!(raman("lambda n k").reading.range_nm, [400.0, 439.0]);
+    let shifts = read(
+        Source { path: "Raman/gold.txt", ..Source::from("#Wave #Intensity\n400 1\n410 2\n420 3\n") },
+        &ReadOptions::default(),
+    );
+    assert_eq!(shifts.map(|_| ()), Err(ReadError::NotWavelengths(1)));
 }
 
 #[test]
@@ -202,6 +209,8 @@ fn columns_beside_spectra_by_their_words() {
     assert!(table.warnings.iter().any(|warning| matches!(warning, Warning::MaybeUncertainty { count: 1, .. })));
     let table = ok(&format!("wl_center depth wv_wdth Repeat\n{}", lines(|nm| format!("{nm} 0.{nm} 0.03 2\n"))));
     assert_eq!(names(&table), ["depth"]);
+    let mean = ok(&format!("wave,flux,std,n_contrib\n0.08,1,1,5\n{}", lines(|nm| format!("0.{nm},12.5,0.5,{nm}\n"))));
+    assert_eq!((names(&mean), mean.reading.range_nm), (vec!["flux"], [400.0, 439.0]));
     let heads = "Species;SIZE (um);CODE";
     let bands = (40..80).map(|nm| format!(";{nm}0")).collect::<Vec<_>>().concat();
     assert_eq!(ok(&format!("{heads}{bands}\nalga;0.5;A1{}\n", ";0.5".repeat(40))).curves.len(), 1);
