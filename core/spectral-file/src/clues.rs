@@ -45,7 +45,7 @@ const fn program_of(start: &'static str, name: &'static str, percent: bool) -> P
     Program { start, end: "", name, percent }
 }
 
-pub(super) const THORLABS: &str = "Thorlabs (read as described, no real file was at hand)";
+pub(super) const THORLABS: &str = "Thorlabs";
 
 const PROGRAMS: [Program; 14] = [
     program_of("SpectraSuite Data File", "Ocean SpectraSuite", true),

