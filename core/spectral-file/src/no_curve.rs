@@ -64,8 +64,14 @@ pub(super) fn leave_out_blank(grid: &mut Grid, log: &mut Log<'_>) {
     retain(&mut grid.curves, &marks);
 }
 
+/// Warns of columns that may be no spectra, by their numbers.
+pub(super) fn warn_of_strangers(grid: &Grid, log: &mut Log<'_>) {
+    warn_of_constants(grid, log);
+    warn_of_other_sizes(grid, log);
+}
+
 /// Warns of columns that hold one number only: zero, or without a name one that may count or mark rows.
-pub(super) fn warn_of_constants(grid: &Grid, log: &mut Log<'_>) {
+fn warn_of_constants(grid: &Grid, log: &mut Log<'_>) {
     const FEWEST: usize = 10;
     let is_constant = |curve: &&RawCurve| {
         let value = curve.values[0];
@@ -77,6 +83,27 @@ pub(super) fn warn_of_constants(grid: &Grid, log: &mut Log<'_>) {
         let (value, first) = (first.values[0], first.description());
         log.push(Warning::Constant { count: 1 + constant.count(), first, value });
     }
+}
+
+/// Warns of columns far smaller or larger than the others of a few: widths of bins and counts of scans stand beside spectra under names
+/// that nothing tells from theirs.
+fn warn_of_other_sizes(grid: &Grid, log: &mut Log<'_>) {
+    const FEW: usize = 12;
+    const RATIO: f64 = 100.0;
+    let is_known =
+        |curve: &RawCurve| !curve.named || is_one(&curve.name, "n|k") || header_terms::channel(&curve.name).is_some();
+    if is_own(grid) || !(2..=FEW).contains(&grid.curves.len()) || grid.curves.iter().any(is_known) {
+        return;
+    }
+    let size = |curve: &RawCurve| curve.values.iter().fold(0.0_f64, |size, value| size.max(value.abs()));
+    let mut sizes: Vec<(f64, &RawCurve)> = grid.curves.iter().map(|curve| (size(curve), curve)).collect();
+    sizes.retain(|(size, _)| *size > 0.0);
+    sizes.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let Some(gap) = sizes.windows(2).position(|pair| pair[1].0 > RATIO * pair[0].0) else { return };
+    let (small, large) = sizes.split_at(gap + 1);
+    let (few, many) = if small.len() > large.len() { (large, small) } else { (small, large) };
+    let (first, other) = (few[0].1.description(), many[0].1.description());
+    log.push(Warning::OtherSize { count: few.len(), first, other });
 }
 
 fn is_blank(curve: &RawCurve) -> bool {

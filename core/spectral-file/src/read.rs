@@ -175,7 +175,7 @@ fn finish(
     quantity::suggest_role(&mut grid);
     take_columns_beside(&mut grid, &mut parts, options, &mut warnings);
     no_curve::leave_out_blank(&mut grid, &mut warnings);
-    no_curve::warn_of_constants(&grid, &mut warnings);
+    no_curve::warn_of_strangers(&grid, &mut warnings);
     covariance::prepare(covariance, &mut grid);
     let scale = scale::decide(&grid, options, &mut warnings);
     let quantity = quantity::decide(&grid, &scale.role, &mut warnings);

@@ -187,6 +187,9 @@ pub enum Warning {
     NotReflectances { count: usize, first: String, max: f64 },
     #[error("{}", not_spectra(*.count, .first))]
     NotSpectra { count: usize, first: String },
+    /// Columns of which nothing says that they are of another quantity than the rest.
+    #[error("The values of {first}{} are over 100 times larger or smaller than those of {other}: leave out what is another quantity", and_more(*.count))]
+    OtherSize { count: usize, first: String, other: String },
     /// Columns of quantities that hold only zeros.
     #[error("{first}{}: only zeros, as programs write for what they did not compute: left out", and_more(*.count))]
     Uncomputed { count: usize, first: String },

@@ -205,6 +205,8 @@ fn headers_of_wavelengths_below_one_another_begin_tables() {
 fn columns_beside_spectra_by_their_words() {
     let table = ok(&format!("wl_um flx eflx rms_renorm\n{}", lines(|nm| format!("0.{nm} 12.5 0.5 0.9\n"))));
     assert_eq!(names(&table), ["flx", "rms_renorm"]);
+    let other = ok(&format!("nm,depth,shift\n{}", lines(|nm| format!("{nm},12.{nm},0.001\n"))));
+    assert!(other.warnings.iter().any(|warning| matches!(warning, Warning::OtherSize { count: 1, .. })));
     assert!(table.curves[0].uncertainty.is_some());
     assert!(table.warnings.iter().any(|warning| matches!(warning, Warning::MaybeUncertainty { count: 1, .. })));
     let table = ok(&format!("wl_center depth wv_wdth Repeat\n{}", lines(|nm| format!("{nm} 0.{nm} 0.03 2\n"))));
