@@ -64,10 +64,24 @@ pub(super) fn leave_out_blank(grid: &mut Grid, log: &mut Log<'_>) {
     retain(&mut grid.curves, &marks);
 }
 
-/// Warns of columns that may be no spectra, by their numbers.
+/// The most curves of which one that is unlike the others is said.
+const FEW: usize = 12;
+
+/// Warns of columns that may be no spectra, by their numbers: widths of bins, counts of scans and settings stand beside spectra under
+/// names that nothing tells from theirs.
 pub(super) fn warn_of_strangers(grid: &Grid, log: &mut Log<'_>) {
     warn_of_constants(grid, log);
-    warn_of_other_sizes(grid, log);
+    let is_known =
+        |curve: &RawCurve| !curve.named || is_index_part(&curve.name) || header_terms::channel(&curve.name).is_some();
+    if !is_own(grid) && (2..=FEW).contains(&grid.curves.len()) && !grid.curves.iter().any(is_known) {
+        warn_of_other_sizes(grid, log);
+        warn_of_steps(grid, log);
+    }
+}
+
+/// Returns whether a name is of one part of a refractive index: `n`, `glass_k`.
+fn is_index_part(name: &str) -> bool {
+    name.rsplit(['_', ' ']).next().is_some_and(|part| is_one(part, "n|k"))
 }
 
 /// Warns of columns that hold one number only: zero, or without a name one that may count or mark rows.
@@ -85,16 +99,9 @@ fn warn_of_constants(grid: &Grid, log: &mut Log<'_>) {
     }
 }
 
-/// Warns of columns far smaller or larger than the others of a few: widths of bins and counts of scans stand beside spectra under names
-/// that nothing tells from theirs.
+/// Warns of columns far smaller or larger than the others of a few.
 fn warn_of_other_sizes(grid: &Grid, log: &mut Log<'_>) {
-    const FEW: usize = 12;
     const RATIO: f64 = 100.0;
-    let is_known =
-        |curve: &RawCurve| !curve.named || is_one(&curve.name, "n|k") || header_terms::channel(&curve.name).is_some();
-    if is_own(grid) || !(2..=FEW).contains(&grid.curves.len()) || grid.curves.iter().any(is_known) {
-        return;
-    }
     let size = |curve: &RawCurve| curve.values.iter().fold(0.0_f64, |size, value| size.max(value.abs()));
     let mut sizes: Vec<(f64, &RawCurve)> = grid.curves.iter().map(|curve| (size(curve), curve)).collect();
     sizes.retain(|(size, _)| *size > 0.0);
@@ -104,6 +111,32 @@ fn warn_of_other_sizes(grid: &Grid, log: &mut Log<'_>) {
     let (few, many) = if small.len() > large.len() { (large, small) } else { (small, large) };
     let (first, other) = (few[0].1.description(), many[0].1.description());
     log.push(Warning::OtherSize { count: few.len(), first, other });
+}
+
+/// Warns of columns of whole numbers, or of few different ones, beside others that have neither.
+fn warn_of_steps(grid: &Grid, log: &mut Log<'_>) {
+    const FEWEST_VALUES: usize = 10;
+    const LEVELS: usize = 3;
+    let is_stepped = |curve: &&RawCurve| {
+        let mut levels = Vec::new();
+        for value in curve.values.iter().filter(|value| !value.is_nan()) {
+            if levels.len() <= LEVELS && !levels.contains(value) {
+                levels.push(*value);
+            }
+        }
+        let whole = || curve.values.iter().all(|value| value.is_nan() || value.fract() == 0.0);
+        levels != [0.0]
+            && (levels.len() <= LEVELS || whole())
+            && curve.name != "E"
+            && !header_terms::names_illuminant(&curve.name)
+    };
+    let stepped: Vec<&RawCurve> = grid.curves.iter().filter(is_stepped).collect();
+    if let [first, ..] = stepped[..]
+        && 2 * stepped.len() <= grid.curves.len()
+        && grid.wavelengths.len() >= FEWEST_VALUES
+    {
+        log.push(Warning::Stepped { count: stepped.len(), first: first.description() });
+    }
 }
 
 fn is_blank(curve: &RawCurve) -> bool {

@@ -294,7 +294,7 @@ fn said(grid: &Grid, role: &Decided<Role>) -> Option<Decided<Quantity>> {
     let mut labeled = labels.filter_map(|label| Some((of_label(label)?, label)));
     let decide = |all: bool| if all { Decided::certain } else { Decided::guess };
     if let Some((quantity, label)) = labeled.next().filter(|(quantity, _)| fits(*quantity)) {
-        let all = labeled.count() + 1 == grid.curves.len() && !is_file(label);
+        let all = labeled.filter(|(other, _)| *other == quantity).count() + 1 == grid.curves.len() && !is_file(label);
         return Some(decide(all)(quantity, format!("A column is headed “{}”", excerpt(label))));
     }
     if let Some((line, quantity)) = grid.header.quantity.filter(|(_, quantity)| fits(*quantity)) {

@@ -190,6 +190,9 @@ pub enum Warning {
     /// Columns of which nothing says that they are of another quantity than the rest.
     #[error("The values of {first}{} are over 100 times larger or smaller than those of {other}: leave out what is another quantity", and_more(*.count))]
     OtherSize { count: usize, first: String, other: String },
+    /// Columns of whole numbers, or of few different ones, beside others.
+    #[error("{first}{}: only whole numbers or a few different ones, unlike the others: leave out what is no spectrum", and_more(*.count))]
+    Stepped { count: usize, first: String },
     /// Columns of quantities that hold only zeros.
     #[error("{first}{}: only zeros, as programs write for what they did not compute: left out", and_more(*.count))]
     Uncomputed { count: usize, first: String },

@@ -207,6 +207,15 @@ fn columns_beside_spectra_by_their_words() {
     assert_eq!(names(&table), ["flx", "rms_renorm"]);
     let other = ok(&format!("nm,depth,shift\n{}", lines(|nm| format!("{nm},12.{nm},0.001\n"))));
     assert!(other.warnings.iter().any(|warning| matches!(warning, Warning::OtherSize { count: 1, .. })));
+    let steps = |text: &str| {
+        ok(&format!("nm,depth,turns\n{text}"))
+            .warnings
+            .iter()
+            .any(|warning| matches!(warning, Warning::Stepped { count: 1, .. }))
+    };
+    assert!(steps(&lines(|nm| format!("{nm},12.{nm},0.{}\n", 2 + nm % 2))));
+    assert!(steps(&lines(|nm| format!("{nm},12.{nm},{}\n", nm % 7))));
+    assert!(!steps(&lines(|nm| format!("{nm},12.{nm},{}.25\n", nm % 7))));
     assert!(table.curves[0].uncertainty.is_some());
     assert!(table.warnings.iter().any(|warning| matches!(warning, Warning::MaybeUncertainty { count: 1, .. })));
     let table = ok(&format!("wl_center depth wv_wdth Repeat\n{}", lines(|nm| format!("{nm} 0.{nm} 0.03 2\n"))));

@@ -7,7 +7,7 @@ use spectral_file::{
     read_watched,
 };
 
-use super::{error, layouts, names, ok, samples};
+use super::{Certainty, error, layouts, names, ok, samples};
 
 /// A light of three samples, with something in place of the middle one.
 fn light(middle: &str) -> String {
@@ -285,13 +285,20 @@ fn the_layouts_of_other_tests_survive_other_line_ends() {
 fn samples_of_the_first_version_of_cxf_have_single_values() {
     let of = |at: usize| {
         format!(
-            "<Sample><Name>patch {at}</Name><SampleAttribute><Spectrum Conditions=\"3\">\n<Value Name=\"400\">0.{at}</Value>\n\
+            "<Sample><Name>patch {at}</Name><SampleAttribute><Spectrum Conditions=\"{at}\">\n<Value Name=\"400\">0.{at}</Value>\n\
              <Value Name=\"410\">0.5</Value>\n</Spectrum></SampleAttribute></Sample>\n"
         )
     };
-    let kind = "<Attribute Name=\"Physical.SpectrumType\">AmbientLight</Attribute>";
-    let text = format!("<CXF Version=\"1.0\"><SampleSet><Name>set</Name>{}{}</SampleSet>{kind}</CXF>", of(1), of(2));
-    let table = ok(&text);
+    let kind = |of: usize, kind: &str| {
+        format!("<Conditions><ID>{of}</ID><Attribute Name=\"Physical.SpectrumType\">{kind}</Attribute></Conditions>\n")
+    };
+    let set = format!("<CXF Version=\"1.0\"><SampleSet><Name>set</Name>{}{}</SampleSet>", of(1), of(2));
+    let table = ok(&format!("{set}{}{}</CXF>", kind(1, "AmbientLight"), kind(2, "Emission")));
     assert_eq!((names(&table), table.role.value), (vec!["patch 1", "patch 2"], Role::Illuminant));
     assert_eq!(samples(&table, 1), [(400.0, 0.2), (410.0, 0.5)]);
+    // What is said of one of them is not said of the other.
+    for others in [kind(2, "Reflectance"), kind(3, "AmbientLight"), String::new()] {
+        let table = ok(&format!("{set}{}{others}</CXF>", kind(1, "AmbientLight")));
+        assert_ne!(table.role.certainty, Certainty::Certain, "{others}");
+    }
 }

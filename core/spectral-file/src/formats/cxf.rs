@@ -1,6 +1,7 @@
 //! `CxF3`: spectra of named objects in XML, as lists of values or as single points; and `CxF` 1, whose samples have single values.
 
 use std::borrow::Cow;
+use std::collections::HashMap;
 
 use crate::decimal::clean;
 use crate::decision::{Decided, Reader};
@@ -31,6 +32,7 @@ fn read(text: &str, _: &ReadOptions, log: &mut Log<'_>) -> Result<Found, ReadErr
         }
     }
     content.place_lists(log)?;
+    content.name_types();
     let Content { header, spectra: all, .. } = content;
     let reader = Decided::certain(Reader::CXF, "The root element is “CxF”");
     xml::found(all, header, (reader, "CxF prescribes it"), log)
@@ -73,6 +75,11 @@ struct Content {
     lists: Vec<List>,
     specification: Option<String>,
     ranges: Vec<(String, Range)>,
+    /// Of the first version: the conditions that a spectrum names, those whose element is open, and what spectra measured
+    /// in some are.
+    conditions: Vec<(usize, String)>,
+    number: Option<String>,
+    types: HashMap<String, String>,
 }
 
 impl Content {
@@ -105,8 +112,10 @@ impl Content {
             "Attribute" if element.attribute("Name")?.as_deref() == Some("Physical.SpectrumType") => {
                 let kind = element.content();
                 let kind = if matches!(kind, "AmbientLight" | "Emission") { "Emission" } else { kind };
-                self.spectra.iter_mut().for_each(|spectrum| kind.clone_into(&mut spectrum.label));
+                self.types.extend(self.number.clone().map(|number| (number, kind.to_owned())));
             }
+            "ID" if inside == "Conditions" => self.number = Some(element.content().to_owned()),
+            "Conditions" => self.number = None,
             "ColorSpecification" => self.specification = None,
             "WavelengthRange" => {
                 // The first one of a specification counts.
@@ -144,8 +153,20 @@ impl Content {
             })?;
         }
         samples.shrink_to_fit();
+        if let Some(conditions) = element.attribute("Conditions")? {
+            self.conditions.push((self.spectra.len(), conditions.into_owned()));
+        }
         self.spectra.push(Spectrum { name, label, samples });
         Ok(())
+    }
+
+    /// Conditions stand below the spectra that were measured in them.
+    fn name_types(&mut self) {
+        for (spectrum, number) in &self.conditions {
+            if let Some(kind) = self.types.get(number) {
+                self.spectra[*spectrum].label.clone_from(kind);
+            }
+        }
     }
 
     fn place_lists(&mut self, log: &Log<'_>) -> Result<(), ReadError> {
