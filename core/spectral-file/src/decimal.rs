@@ -41,6 +41,13 @@ pub(super) fn extent(numbers: impl Iterator<Item = f64>) -> (f64, f64) {
     numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(min, max), number| (min.min(number), max.max(number)))
 }
 
+/// The number in the middle, the upper one of two; 0 for none.
+pub(super) fn median(numbers: impl Iterator<Item = f64>) -> f64 {
+    let mut all: Vec<f64> = numbers.filter(|number| !number.is_nan()).collect();
+    all.sort_unstable_by(f64::total_cmp);
+    all.get(all.len() / 2).copied().unwrap_or(0.0)
+}
+
 /// The ends of numbers that rise or fall all the way, from the first to the last one.
 pub(super) fn ends(values: &[f64]) -> Option<(f64, f64)> {
     let start = values.iter().position(|value| !value.is_nan())?;

@@ -458,7 +458,8 @@ impl Header {
         }
         self.calibration |= header_terms::says_calibration(text);
         // ASD's files are named after what was meant to be measured; `0=Reflectance, 1=…` are all the types there are.
-        let is_other = text.contains(".asd") || text.contains("0=") && text.contains("1=");
+        let has = |start: &str| text.split([' ', ',', ';', '\t', '(']).any(|part| part.starts_with(start));
+        let is_other = text.contains(".asd") || has("0=") && has("1=");
         if let Some(role) = header_terms::role_in_prose(text).filter(|_| !self.calibration && !is_other) {
             (self.mentioned, self.earlier) = (Some((line, role)), self.mentioned);
             let told = role == Role::Illuminant || role.is_fraction();

@@ -5,6 +5,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::decimal::median;
 use crate::decision::{Certainty, Decided, Decision, Effect, Role, Values};
 use crate::grid::{Grid, RawCurve, Stated, StatedScale, retain};
 use crate::header_terms;
@@ -268,12 +269,6 @@ fn fault(numbers: &[f64], values: &[f64]) -> Option<&'static str> {
 /// Returns whether numbers are no uncertainties of values by their size: half of the values or more.
 fn is_too_large(values: &[f64], numbers: &[f64]) -> bool {
     median(numbers.iter().copied()) >= 0.5 * median(values.iter().map(|value| value.abs()))
-}
-
-fn median(numbers: impl Iterator<Item = f64>) -> f64 {
-    let mut all: Vec<f64> = numbers.filter(|number| !number.is_nan()).collect();
-    all.sort_unstable_by(f64::total_cmp);
-    all.get(all.len() / 2).copied().unwrap_or(0.0)
 }
 
 fn other_unit(curve: &RawCurve, column: &RawCurve, term: &Term) -> bool {

@@ -1,6 +1,6 @@
 //! Wavelengths: their unit, their range, their order, and repeats.
 
-use crate::decimal::{ends, extent};
+use crate::decimal::{ends, extent, median};
 use crate::decision::{Certainty, Decided, Dropped, WavelengthUnit};
 use crate::error::ReadError;
 use crate::grid::{Grid, RawCurve};
@@ -293,7 +293,7 @@ pub(super) fn warn(grid: &Grid, step: Steps, unit: WavelengthUnit, log: &mut Log
     let width = |at: usize| wavelengths[at + 1] - wavelengths[at];
     // Even steps of wave numbers and frequencies are none of wavelengths.
     let inverse = |at: usize| 1.0 / wavelengths[at] - 1.0 / wavelengths[at + 1];
-    let inverse_median = unit.is_inverse().then(|| median((0..wavelengths.len() - 1).map(inverse).collect()));
+    let inverse_median = unit.is_inverse().then(|| median((0..wavelengths.len() - 1).map(inverse)));
     let is_wide = |at: usize| inverse_median.is_none_or(|median| inverse(at) > TIMES * median);
     let holes = (0..wavelengths.len() - 1).filter(|at| width(*at) > LEAST_NM.max(TIMES * step.median) && is_wide(*at));
     // The first of the widest.
@@ -303,11 +303,6 @@ pub(super) fn warn(grid: &Grid, step: Steps, unit: WavelengthUnit, log: &mut Log
         let (from_nm, to_nm, count) = (wavelengths[at], wavelengths[at + 1], holes.count());
         log.push(Warning::Hole { count, from_nm, to_nm, lines: own.then_some(lines) });
     }
-}
-
-fn median(mut numbers: Vec<f64>) -> f64 {
-    numbers.sort_unstable_by(f64::total_cmp);
-    numbers.get(numbers.len() / 2).copied().unwrap_or(0.0)
 }
 
 /// Leaves one of rows that are the same, and the mean of rows that differ at one wavelength.

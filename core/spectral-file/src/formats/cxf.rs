@@ -1,7 +1,7 @@
 //! `CxF3`: spectra of named objects in XML, as lists of values or as single points; and `CxF` 1, whose samples have single values.
 
 use std::borrow::Cow;
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use crate::decimal::clean;
 use crate::decision::{Decided, Reader};
@@ -79,7 +79,7 @@ struct Content {
     /// in some are.
     conditions: Vec<(usize, String)>,
     number: Option<String>,
-    types: HashMap<String, String>,
+    types: BTreeMap<String, String>,
 }
 
 impl Content {

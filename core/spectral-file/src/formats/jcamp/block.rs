@@ -1,7 +1,7 @@
 //! Blocks of JCAMP-DX: records and data, their values beside what the header announces, and those of what a detector counted with a
 //! sample, with a reference, and in the dark.
 
-use crate::decimal::{clean, extent};
+use crate::decimal::{clean, extent, median};
 use crate::decision::{Decided, Decision, Part, Quantity, Role, Values};
 use crate::error::ReadError;
 use crate::formats::jcamp::ordinates::{self, Axis, Data, Row, Written};
@@ -387,11 +387,7 @@ pub(super) fn settle(blocks: &mut [Block], options: &ReadOptions, log: &mut Log<
 
 /// Returns whether the values of a block are counts: too large for percentages, or of the size of the raw ones.
 fn is_counts(blocks: &[Block], sample: usize, dark: Option<usize>, reference: Option<usize>) -> bool {
-    let median = |block: usize| {
-        let mut values: Vec<f64> = blocks[block].samples.iter().map(|sample| sample.value).collect();
-        values.sort_unstable_by(f64::total_cmp);
-        values.get(values.len() / 2).copied().unwrap_or(0.0)
-    };
+    let median = |block: usize| median(blocks[block].samples.iter().map(|sample| sample.value));
     let own = median(sample);
     let like_raw = || reference.is_some_and(|reference| median(reference) <= MOST_TIMES * own);
     let any = dark.is_some() || reference.is_some();
