@@ -35,7 +35,9 @@ fn print(path: &str, file: &SpectralFile) {
         let (first, last) = (curve.wavelengths_nm.first(), curve.wavelengths_nm.last());
         let unit = curve.unit.as_deref().unwrap_or("no unit");
         if let (Some(first), Some(last)) = (first, last) {
-            println!("  {}: {} samples from {first} to {last} nm, {unit}", curve.name, curve.values.len());
+            let (name, count) = (&curve.name, curve.values.len());
+            let named = if curve.named { "" } else { " (no name in the file)" };
+            println!("  {name}{named}: {count} samples from {first} to {last} nm, {unit}");
         }
     }
     for decision in file.decisions() {

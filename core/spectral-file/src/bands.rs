@@ -181,7 +181,7 @@ pub(super) fn groups(dialect: Dialect, line: &str) -> Vec<Group> {
     let is_far = |first: f64, second: f64| first > APART * second || second > APART * first;
     let mut all = Vec::new();
     let mut run: Vec<(usize, Band<'_>)> = Vec::new();
-    let mut wrong = 0;
+    let (mut wrong, mut overlaps) = (0, 0);
     for (index, &(column, band)) in bands.iter().enumerate() {
         let next = bands.get(index + 1).map(|(_, next)| next);
         let (begun, beside) =
@@ -194,6 +194,10 @@ pub(super) fn groups(dialect: Dialect, line: &str) -> Vec<Group> {
                 run.push((column, band));
             }
             Step::Wrong => wrong += 1,
+            Step::Anew if beside && overlaps < MOST_OVERLAPS && begins_next_detector(&run, &band, next) => {
+                run.push((column, band));
+                overlaps += 1;
+            }
             Step::Anew => {
                 // Numbers that go up and down are values, unless a second spectrum begins where the first did, or one number
                 // stands behind many.
@@ -219,6 +223,18 @@ pub(super) fn groups(dialect: Dialect, line: &str) -> Vec<Group> {
         return Vec::new();
     }
     all
+}
+
+/// The most detectors of one instrument whose ranges overlap, but one.
+const MOST_OVERLAPS: usize = 4;
+
+/// Returns whether wavelengths go back a little and on, as where the ranges of two detectors overlap.
+fn begins_next_detector(run: &[(usize, Band<'_>)], band: &Band<'_>, next: Option<&Band<'_>>) -> bool {
+    const LEAST_TIMES: f64 = 10.0;
+    let ([(_, first), .., (_, last)], Some(next)) = (run, next) else { return false };
+    let (so_far, back) = (last.wavelength - first.wavelength, last.wavelength - band.wavelength);
+    let on = (next.wavelength - band.wavelength) * so_far > 0.0 && next.goes_with(band);
+    run.len() >= FEWEST_UNSAID && back * LEAST_TIMES < so_far && back > 0.0 && on
 }
 
 enum Step {

@@ -73,7 +73,9 @@ impl Clues {
         // The name of a file may join its words.
         let spaced = text.replace('_', " ");
         self.absorbance = self.absorbance.or_else(|| header_terms::mentions_absorbance(&spaced).then_some(line));
-        self.uncertainties = self.uncertainties.or_else(|| uncertainty_terms::is_title(&spaced).then_some(line));
+        // Wide gaps stand between the heads of columns.
+        let title = !spaced.trim().contains("  ") && uncertainty_terms::is_title(&spaced);
+        self.uncertainties = self.uncertainties.or(title.then_some(line));
         self.material = self.material || header_terms::names_material(&spaced);
         self.other = self.other.or_else(|| Some((line, header_terms::not_converted(&spaced)?)));
     }

@@ -12,7 +12,7 @@ use crate::no_curve::{FEWEST_ROWS, is_empty};
 use crate::text::{Lines, Section, comment, excerpt, has_word, is_one, lower};
 use crate::warning::{LineList, Warning};
 use crate::watch::Log;
-use crate::{header_terms, unit_text, wavelengths};
+use crate::{header_terms, no_curve, unit_text, wavelengths};
 
 pub(super) struct Read {
     pub(super) grid: Grid,
@@ -357,7 +357,9 @@ impl Columns {
         }
         // Several names too many for all rows: nothing says which column has which.
         let surplus = header.names.iter().skip(self.most_cells.max(self.width));
-        let surplus = surplus.filter(|name| !is_one(&name.to_lowercase(), NOTES)).count() > 1;
+        // Nor do settings behind the names, `Bias (V):,0.5`.
+        let is_setting = |name: &str| name.ends_with(':') || name.parse::<f64>().is_ok();
+        let surplus = surplus.filter(|name| !(is_one(&name.to_lowercase(), NOTES) || is_setting(name))).count() > 1;
         let at = self.named.filter(|&at| at < columns && !surplus);
         let bare = header.names.is_empty() && header.units.is_empty() && !layout.every_column;
         let at = at.or_else(|| axes::after_count(&self.cells).filter(|_| bare));
@@ -373,7 +375,7 @@ impl Columns {
             let name = header.name(column).unwrap_or_default().to_owned();
             log.push(Warning::TextColumns { count: 1, column: column + 1, name });
         } else {
-            warn_of_names_without_columns(&header, columns, log);
+            warn_of_names_without_columns(&header, columns, surplus, log);
             if surplus {
                 header.names.truncate(at + 1);
                 header.units.truncate(at + 1);
@@ -403,8 +405,16 @@ impl Columns {
         if skipped.iter().any(|(_, column)| !is_empty(column)) {
             log.push(Warning::SkippedColumns(at + 1));
         }
-        if !axes.left.is_empty() {
-            let named = axes::column_list(&header, &axes.left);
+        let is_end = |column: &&usize| {
+            let values = column.checked_sub(at + 1).and_then(|index| values.get(index));
+            values.is_some_and(|values| no_curve::are_upper_ends(&wavelengths, values))
+        };
+        let (ends, others): (Vec<usize>, Vec<usize>) = axes.left.iter().partition(is_end);
+        if let Some(end) = ends.first() {
+            log.push(Warning::UpperEnds([end + 1, at + 1]));
+        }
+        if !others.is_empty() {
+            let named = axes::column_list(&header, &others);
             log.push(Warning::OtherAxes { named, wavelength_column: Some(at + 1) });
         }
         if let Some(&first) = texts.first() {
@@ -444,7 +454,10 @@ fn raw_curve(header: &Header, column: usize, only: bool, values: Vec<f64>) -> Ra
 }
 
 /// A named column that is empty in every row is no column of the rows, but its absence is reported.
-fn warn_of_names_without_columns(header: &Header, width: usize, log: &mut Log<'_>) {
+fn warn_of_names_without_columns(header: &Header, width: usize, surplus: bool, log: &mut Log<'_>) {
+    if surplus {
+        return log.push(Warning::NamesDiffer { names: header.names.len(), columns: width });
+    }
     let mut names = header.names.iter().enumerate().skip(width).filter(|(_, name)| !name.is_empty());
     if let Some((column, first)) = names.next() {
         let first = format!("“{first}” (column {})", column + 1);

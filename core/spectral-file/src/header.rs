@@ -154,6 +154,10 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
             continue;
         }
         header.take_prose(number, body.unwrap_or(line));
+        // A rule between the names and the numbers.
+        if body.is_some_and(|body| !body.is_empty() && header_terms::is_sign(body)) {
+            continue;
+        }
         near.push((number, line));
         if near.len() > NEAR {
             near.remove(0);
@@ -168,6 +172,13 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
             (header.line, header.names) = (Some(line), names);
         }
         header.settle_names();
+        // UV WinLab writes `A` where others write `Abs`.
+        if let [axis, values] = &header.names[..]
+            && axis == "nm"
+            && values == "A"
+        {
+            header.clues.absorbance = header.clues.absorbance.or(header.line);
+        }
         header.settle_units(layout);
         if let Some((line, XUnit::Wavelength(WavelengthUnit::Wavenumber))) = header.x_unit.filter(|_| header.raman) {
             header.x_unit = Some((line, XUnit::Other));
@@ -321,7 +332,8 @@ impl Header {
         }
         // `wavelength_unit`, `x unit` and the like; a plain `unit` is that of the values.
         let about_x = header_terms::x_unit_in_prose(&format!("{lower} {value}"));
-        let about_columns = is_one(&lower, "columns|column|fields");
+        let about_columns =
+            is_one(&lower, "columns|column|fields|starting wavelength|start wavelength|first wavelength");
         if let Some(unit) = about_x.filter(|_| lower.starts_with(['w', 'x']) || about_columns) {
             self.x_unit = Some((line, unit));
         } else if let Some(name) = lower.strip_suffix(" unit").or_else(|| lower.strip_suffix(" units")) {

@@ -3,6 +3,7 @@
 use crate::decision::{Medium, Quantity, Role, Values, WavelengthUnit};
 use crate::text::{begins, has_part, has_word, is_one, lower, slashed, spaced, words};
 use crate::unit_text::percent_sign;
+use crate::units;
 
 /// Quantity of curves that state none, in the heads of the program's own tables.
 pub(super) const UNSPECIFIED: &str = "unspecified quantity";
@@ -162,7 +163,7 @@ pub(super) fn mentions_absorbance(text: &str) -> bool {
 
 /// Returns whether a header names light on a scale of its own: `Relative power`, `Intensity (a.u.)`, `mW`.
 pub(super) fn names_light_scale(text: &str) -> bool {
-    const WORDS: &str = "power|intensity|emission|energy|luminance";
+    const WORDS: &str = "power|intensity|intensities|emission|energy|luminance";
     const UNITS: &str = "mw|µw|uw|nw|w";
     let text = lower(text).replace(" / ", "/");
     // `G_W_1` is a name.
@@ -179,7 +180,7 @@ pub(super) fn is_power(text: &str) -> bool {
 
 /// Returns whether a header names a response, which is neither a light nor a fraction of one.
 pub(super) fn names_response(text: &str) -> bool {
-    has_word(&lower(text), "response|responses|quantum")
+    has_word(&lower(text).replace('_', " "), "response|responses|quantum|rsr")
 }
 
 /// Returns whether the unit of a header is AU, which is of absorbance or arbitrary.
@@ -302,7 +303,12 @@ pub(super) fn role_in_prose(text: &str) -> Option<Role> {
     // Of a lock-in amplifier.
     let number = |rest: &str| rest.trim_start_matches([':', '=', ' ', '\t']).starts_with(|c: char| c.is_ascii_digit());
     let setting = word == "sensitivity" && number(&text[key.len()..]);
-    if light { Some(Role::Illuminant) } else { role(text).filter(|_| !(condition || setting)) }
+    // Power on an area, per wavelength.
+    let power = || units::parse(text).is_some_and(|unit| unit.area.is_some() && unit.per != units::Per::None);
+    if light {
+        return Some(Role::Illuminant);
+    }
+    role(text).or_else(|| power().then_some(Role::Illuminant)).filter(|_| !(condition || setting))
 }
 
 /// Returns whether a line says that the numbers below are coefficients for the calibration of an instrument.
@@ -571,7 +577,7 @@ pub(super) fn names_time(text: &str) -> bool {
 
 /// Returns whether a column's header names a quantity over which no spectrum runs: a time, a temperature, an angle, a place.
 pub(super) fn names_other_axis(text: &str) -> bool {
-    const QUANTITIES: &str = "concentration|concentracion|concentración|conc|time|seconds|minutes|hours|elapsed|temperature|temp|theta|2theta|angle|lon|longitude|lat|\
+    const QUANTITIES: &str = "t|pressure|distance|position|mass|height|weight|volume|concentration|concentracion|concentración|conc|time|seconds|minutes|hours|elapsed|temperature|temp|theta|2theta|angle|lon|longitude|lat|\
         latitude|current|voltage|date|year|month|day|hour";
     const UNITS: &str = "s|sec|ms|msec|min|h|k|°c|°|deg|degree|degrees|ma|mg/kg";
     let text = lower(text);
@@ -582,7 +588,8 @@ pub(super) fn names_other_axis(text: &str) -> bool {
     !names_wavelengths(&text) && (words(&text).next().is_some_and(|word| is_one(word, QUANTITIES)) || unit())
 }
 
-/// Index of the column header that names the wavelengths: those in nanometers before those in other units.
+/// Index of the column header that names the wavelengths: those in nanometers before those in other units. A first one without a
+/// unit is that of the values next to it.
 pub(super) fn axis(names: &[String]) -> Option<usize> {
     let rank = |name: &str| match x_unit(name) {
         Some(XUnit::Wavelength(WavelengthUnit::Nanometer)) => 0,
@@ -590,6 +597,12 @@ pub(super) fn axis(names: &[String]) -> Option<usize> {
         None => 2,
         Some(_) => 3,
     };
-    let named = names.iter().enumerate().filter(|(_, name)| names_wavelengths(name));
+    let mut named = names.iter().enumerate().filter(|(_, name)| names_wavelengths(name)).peekable();
+    let &(first, name) = named.peek()?;
+    let has_values =
+        |next: &String| !next.is_empty() && !names_wavelengths(next) && !is_count(next) && !names_time(next);
+    if rank(name) == 2 && names.get(first + 1).is_some_and(has_values) {
+        return Some(first);
+    }
     named.min_by_key(|(_, name)| rank(name)).map(|(column, _)| column)
 }

@@ -71,8 +71,8 @@ const FEW: usize = 12;
 /// names that nothing tells from theirs.
 pub(super) fn warn_of_strangers(grid: &Grid, log: &mut Log<'_>) {
     warn_of_constants(grid, log);
-    let is_known =
-        |curve: &RawCurve| !curve.named || is_index_part(&curve.name) || header_terms::channel(&curve.name).is_some();
+    warn_of_integrals(grid, log);
+    let is_known = |curve: &RawCurve| is_index_part(&curve.name) || header_terms::channel(&curve.name).is_some();
     if !is_own(grid) && (2..=FEW).contains(&grid.curves.len()) && !grid.curves.iter().any(is_known) {
         warn_of_other_sizes(grid, log);
         warn_of_steps(grid, log);
@@ -111,6 +111,24 @@ fn warn_of_other_sizes(grid: &Grid, log: &mut Log<'_>) {
     let (few, many) = if small.len() > large.len() { (large, small) } else { (small, large) };
     let (first, other) = (few[0].1.description(), many[0].1.description());
     log.push(Warning::OtherSize { count: few.len(), first, other });
+}
+
+/// Warns of columns that only rise, from nothing to their end, as sums over the wavelengths below do.
+fn warn_of_integrals(grid: &Grid, log: &mut Log<'_>) {
+    const FEWEST_VALUES: usize = 20;
+    const NOTHING: f64 = 1e-3;
+    let is_sum = |curve: &&RawCurve| {
+        let (Some(first), Some(last)) = (curve.values.first(), curve.values.last()) else { return false };
+        let far = first.abs() < NOTHING * last && grid.wavelengths.len() >= FEWEST_VALUES;
+        !curve.named
+            && far
+            && curve.values.is_sorted_by(|a, b| a <= b)
+            && curve.values.windows(2).filter(|pair| pair[0] < pair[1]).count() * 2 > curve.values.len()
+    };
+    let mut sums = grid.curves.iter().filter(is_sum);
+    if let Some(first) = sums.next().filter(|_| !is_own(grid)) {
+        log.push(Warning::Integral { count: 1 + sums.count(), first: first.description() });
+    }
 }
 
 /// Warns of columns of whole numbers, or of few different ones, beside others that have neither.
@@ -161,9 +179,10 @@ fn is_companion(curve: &RawCurve, made: bool) -> bool {
         inside('(', ')') || inside('[', ']')
     });
     let bare = name.split(['(', '[']).next().unwrap_or_default().trim().replace('_', " ");
+    let angle = bare.rsplit(' ').next().is_some_and(|word| is_one(word, "azimuth|zenith"));
     let signal = made && bare.rsplit(' ').next().is_some_and(|word| is_one(word, SIGNALS));
     let width = bare.split(' ').any(|word| is_one(word, "wdth|width|halfwidth|binwidth"));
-    let named = signal || width || is_one(&bare, NAMES) || is_one(&name, NAMES);
+    let named = signal || angle || width || is_one(&bare, NAMES) || is_one(&name, NAMES);
     let of_all = is_one(&bare, OF_SPECTRUM) && curve.values.iter().all(|value| *value == curve.values[0]);
     let counts =
         header_terms::is_count(&bare) && !bare.contains(' ') && curve.values.len() > 2 && counts(&curve.values);
@@ -213,7 +232,12 @@ pub(super) fn is_other_scale(wavelengths: &[f64], column: &[f64]) -> bool {
     }
     let inverse = |product: f64| wavelengths.iter().zip(column).all(|(w, c)| (w * c / product - 1.0).abs() < CLOSE);
     PRODUCTS.iter().any(|product| UNITS.iter().any(|unit| inverse(product * unit)))
-        || wavelengths[1..] == column[..column.len() - 1]
+        || are_upper_ends(wavelengths, column)
+}
+
+/// True for the upper ends of intervals that begin at the wavelengths, one at the end of the other.
+pub(super) fn are_upper_ends(wavelengths: &[f64], column: &[f64]) -> bool {
+    wavelengths.len() >= FEWEST_ROWS && wavelengths[1..] == column[..column.len() - 1]
 }
 
 /// True for a row of a table across that holds no spectrum: wave numbers, times, or numbers that count the columns.
@@ -360,6 +384,14 @@ fn stands_for_none(value: f64, (low, high): (f64, f64)) -> bool {
         }
 }
 
+/// Returns whether −1 stands there again and again beside values that are not below zero.
+fn repeats_minus_one(values: &[f64]) -> bool {
+    const FEWEST: usize = 3;
+    let (marks, others): (Vec<f64>, Vec<f64>) =
+        values.iter().filter(|value| **value < 0.0).partition(|value| **value == -1.0);
+    others.is_empty() && marks.len() >= FEWEST && marks.len() * 2 < values.len()
+}
+
 pub(super) fn take_sentinels(grid: &mut Grid, log: &mut Log<'_>) {
     if is_own(grid) {
         return;
@@ -368,13 +400,15 @@ pub(super) fn take_sentinels(grid: &mut Grid, log: &mut Log<'_>) {
     let mut cells = 0;
     let mut first: Option<Sentinel> = None;
     for curve in &mut grid.curves {
-        if !curve.values.iter().any(|value| is_candidate(*value)) {
+        let marked = repeats_minus_one(&curve.values);
+        if !marked && !curve.values.iter().any(|value| is_candidate(*value)) {
             continue;
         }
         let others = extent(curve.values.iter().copied().filter(|value| !value.is_nan() && !is_candidate(*value)));
-        let Some(&number) = curve.values.iter().find(|value| stands_for_none(**value, others)) else { continue };
+        let is_none = |value: &f64| stands_for_none(*value, others) || marked && *value == -1.0;
+        let Some(&number) = curve.values.iter().find(|value| is_none(value)) else { continue };
         first.get_or_insert_with(|| Sentinel { number, curve: curve.description() });
-        for value in curve.values.iter_mut().filter(|value| stands_for_none(**value, others)) {
+        for value in curve.values.iter_mut().filter(|value| is_none(value)) {
             *value = f64::NAN;
             cells += 1;
         }

@@ -167,11 +167,12 @@ fn finish(
     wavelengths::to_nanometers(&mut grid, &wavelength_unit, &mut warnings)?;
     warn_of_unit(&wavelength_unit, &mut warnings);
     warnings.look(usize::MAX)?;
-    let descending = wavelengths::sort(&mut grid, &mut warnings)?;
+    // Before rows of one wavelength are averaged.
+    no_curve::take_sentinels(&mut grid, &mut warnings);
+    let descending = wavelengths::sort(&mut grid, &wavelength_unit, &mut warnings)?;
     let (range_nm, step_nm) = (grid.range_nm(), Steps::of(&grid.wavelengths));
     wavelengths::warn(&grid, step_nm, wavelength_unit.value, &mut warnings);
     warnings.look(usize::MAX)?;
-    no_curve::take_sentinels(&mut grid, &mut warnings);
     quantity::suggest_role(&mut grid);
     take_columns_beside(&mut grid, &mut parts, options, &mut warnings);
     no_curve::leave_out_blank(&mut grid, &mut warnings);

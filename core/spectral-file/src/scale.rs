@@ -140,11 +140,10 @@ pub(super) fn warn(scale: &Scale, grid: &Grid, log: &mut Log<'_>) {
     const NOISE: f64 = 0.05;
     let role = scale.role.value;
     let light = role == Role::Illuminant;
-    if !role.is_fraction() && role != Role::Camera && !light {
-        return;
-    }
+    // Of an unknown kind, what has no value above zero: logarithms.
+    let unknown = role == Role::Unknown;
     // Outside, instruments are noisy.
-    let all = !light && !grid.wavelengths.iter().any(|w| VISIBLE_NM.contains(w));
+    let all = unknown || !light && !grid.wavelengths.iter().any(|w| VISIBLE_NM.contains(w));
     let (mut bright, mut below) = (0, 0);
     let (mut first_bright, mut first_below) = (None, None);
     for curve in &grid.curves {
@@ -160,7 +159,7 @@ pub(super) fn warn(scale: &Scale, grid: &Grid, log: &mut Log<'_>) {
             bright += 1;
             first_bright.get_or_insert((curve, max));
         }
-        if lowest.0 < -NOISE * max.max(0.0) && lowest.0 < 0.0 {
+        if lowest.0 < -NOISE * max.max(0.0) && lowest.0 < 0.0 && (!unknown || max <= 0.0 && lowest.0 < -1.0) {
             below += 1;
             first_below.get_or_insert((curve, lowest));
         }

@@ -195,7 +195,7 @@ impl Sniffer<'_> {
     fn lay_across(self, trial: &Trial, orientation: Decided<Orientation>) -> Result<Layout, ReadError> {
         let mut across = trial.across.clone().filter(|across| across.rows > 0).ok_or(ReadError::NoNumbers)?;
         across.part = self.options.part.unwrap_or(1).saturating_sub(1);
-        let rows = if across.rows == 1 { "one row".to_owned() } else { format!("{} rows", across.rows) };
+        let rows = if across.rows == 1 { "one row" } else { "rows" };
         let evidence = format!("A header of {} wavelengths with {rows} below it", across.group().count());
         let (decimal_mark, thousands, warning) = self.marks(trial, across.first_row, Orientation::Across);
         let dialect = Dialect { delimiter: trial.dialect.delimiter, mark: decimal_mark.value, thousands };

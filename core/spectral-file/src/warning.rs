@@ -85,6 +85,8 @@ pub enum Warning {
         /// A number that was taken for a missing value.
         sentinel: Option<Sentinel>,
     },
+    #[error("{names} names stand above {columns} columns: they are not used")]
+    NamesDiffer { names: usize, columns: usize },
     #[error("{}", empty_curves(*.count, .first))]
     EmptyCurves { count: usize, first: String },
     /// Columns before the wavelengths, such as a pixel number: omitted. Holds the column of the wavelengths, from 1.
@@ -173,6 +175,9 @@ pub enum Warning {
         /// The column of the wavelengths, from 1, where they run down one.
         wavelength_column: Option<usize>,
     },
+    /// The columns of the upper and of the lower ends, from 1.
+    #[error("Column {} holds the upper ends of intervals that begin at the wavelengths, in column {}: left out, so that each value stands at the lower end", .0[0], .0[1])]
+    UpperEnds([usize; 2]),
     #[error("Rows of other quantities than “{taken}”: left out ({others}): choose the part to read them")]
     MoreQuantities { taken: String, others: String },
     #[error("line {line}: {named}: no wavelength there, so the column is left out")]
@@ -190,6 +195,8 @@ pub enum Warning {
     /// Columns of which nothing says that they are of another quantity than the rest.
     #[error("The values of {first}{} are over 100 times larger or smaller than those of {other}: leave out what is another quantity", and_more(*.count))]
     OtherSize { count: usize, first: String, other: String },
+    #[error("{first}{} only rises, from nothing to its end: leave it out if it is an integral", and_more(*.count))]
+    Integral { count: usize, first: String },
     /// Columns of whole numbers, or of few different ones, beside others.
     #[error("{first}{}: only whole numbers or a few different ones, unlike the others: leave out what is no spectrum", and_more(*.count))]
     Stepped { count: usize, first: String },

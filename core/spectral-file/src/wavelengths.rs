@@ -59,7 +59,9 @@ fn unit_from_range(grid: &Grid) -> Result<Decided<WavelengthUnit>, ReadError> {
         WavelengthUnit::Meter
     } else if min >= 0.1 && max <= 25.0 && in_order || are_partly_micrometers(grid, (min, max)) {
         WavelengthUnit::Micrometer
-    } else if (2000.0..=4000.0).contains(&min) && (7000.0..=12_000.0).contains(&max) && is_named(grid) {
+    } else if (2000.0..=4000.0).contains(&min) && (7000.0..=12_000.0).contains(&max) && is_named(grid)
+        || min >= 1000.0 && axis_name(grid) == Some("A")
+    {
         // The word excludes wave numbers.
         WavelengthUnit::Angstrom
     } else if min >= 10_000.0 && max <= 100_000.0
@@ -139,10 +141,13 @@ fn no_other_axis(grid: &Grid) -> Result<(), ReadError> {
     if other { Err(ReadError::NoWavelengths(grid.header.line.unwrap_or(1))) } else { Ok(()) }
 }
 
+fn axis_name(grid: &Grid) -> Option<&str> {
+    grid.header.name(grid.wavelength_column.unwrap_or(1).saturating_sub(1))
+}
+
 /// Returns whether the column of the wavelengths is named so, without a unit.
 fn is_named(grid: &Grid) -> bool {
-    let column = grid.wavelength_column.unwrap_or(1).saturating_sub(1);
-    grid.header.name(column).is_some_and(header_terms::begins_with_wavelengths)
+    axis_name(grid).is_some_and(header_terms::begins_with_wavelengths)
 }
 
 /// True for equal steps that are no whole numbers, as between the wave numbers of a Fourier transform.
@@ -247,22 +252,30 @@ pub(super) fn to_nanometers(
 }
 
 /// Brings a grid into ascending order without repeats. Returns whether it was descending. Refuses rows most of which are at one
-/// wavelength.
-pub(super) fn sort(grid: &mut Grid, log: &mut Log<'_>) -> Result<bool, ReadError> {
+/// wavelength, and numbers that go up and down where nothing says that they are wavelengths.
+pub(super) fn sort(grid: &mut Grid, unit: &Decided<WavelengthUnit>, log: &mut Log<'_>) -> Result<bool, ReadError> {
     const FEWEST_SETTINGS: usize = 4;
     let wavelengths = &grid.wavelengths;
     let falls = wavelengths.windows(2).filter(|pair| pair[1] < pair[0]).count();
     let rises = wavelengths.windows(2).filter(|pair| pair[1] > pair[0]).count();
     let descending = falls > rises;
+    let mut mixed = None;
     if falls > 0 && rises > 0 {
         let wrong = |pair: &[f64]| if descending { pair[1] > pair[0] } else { pair[1] < pair[0] };
         let at = wavelengths.windows(2).position(wrong).unwrap_or(0);
+        let unsaid = unit.certainty == Certainty::Guess && !is_named(grid) && 4 * rises.min(falls) > rises + falls;
+        mixed = (unsaid && rises + falls >= FEW).then(|| grid.line(at + 1));
         log.push(Warning::Sorted(grid.line(at + 1)));
     }
     if falls > 0 {
         let mut order: Vec<usize> = (0..wavelengths.len()).collect();
         order.sort_by(|&a, &b| wavelengths[a].total_cmp(&wavelengths[b]));
         grid.reorder(&order);
+    }
+    // Points picked off a plot of one curve may stand in any order.
+    let is_picked = |curves: &[RawCurve]| matches!(curves, [only] if !only.named && !is_scattered(&only.values));
+    if let Some(line) = mixed.filter(|_| !is_picked(&grid.curves)) {
+        return Err(ReadError::NoWavelengths(line));
     }
     // What more than half are is in the middle.
     let (all, nm) = (&grid.wavelengths, grid.wavelengths[grid.wavelengths.len() / 2]);
@@ -275,10 +288,20 @@ pub(super) fn sort(grid: &mut Grid, log: &mut Log<'_>) -> Result<bool, ReadError
     Ok(descending)
 }
 
+/// True for values that go up and down over their whole range from one to the next, which none over wavelengths in order do.
+fn is_scattered(values: &[f64]) -> bool {
+    const MOST_SWINGS: f64 = 6.0;
+    let present = || values.iter().copied().filter(|value| !value.is_nan());
+    let (low, high) = extent(present());
+    let path: f64 = present().zip(present().skip(1)).map(|(a, b)| (b - a).abs()).sum();
+    MOST_SWINGS * path > (high - low) * values.len() as f64
+}
+
 pub(super) fn warn(grid: &Grid, step: Steps, unit: WavelengthUnit, log: &mut Log<'_>) {
     const VISIBLE_NM: std::ops::RangeInclusive<f64> = 380.0..=780.0;
     const LEAST_NM: f64 = 20.0;
     const TIMES: f64 = 10.0;
+    const GROWTH: f64 = 4.0;
     let wavelengths = &grid.wavelengths;
     let outside = |end: Option<&f64>, beyond: fn(f64) -> bool| end.is_some_and(|&nm| beyond(nm));
     if outside(wavelengths.first(), |nm| nm > *VISIBLE_NM.end())
@@ -295,7 +318,13 @@ pub(super) fn warn(grid: &Grid, step: Steps, unit: WavelengthUnit, log: &mut Log
     let inverse = |at: usize| 1.0 / wavelengths[at] - 1.0 / wavelengths[at + 1];
     let inverse_median = unit.is_inverse().then(|| median((0..wavelengths.len() - 1).map(inverse)));
     let is_wide = |at: usize| inverse_median.is_none_or(|median| inverse(at) > TIMES * median);
-    let holes = (0..wavelengths.len() - 1).filter(|at| width(*at) > LEAST_NM.max(TIMES * step.median) && is_wide(*at));
+    // Nor are steps that grow from one to the next.
+    let beside = |at: usize| {
+        let below = at.checked_sub(1).map_or(f64::INFINITY, width);
+        if at + 2 < wavelengths.len() { below.min(width(at + 1)) } else { below }
+    };
+    let holes = (0..wavelengths.len() - 1)
+        .filter(|&at| width(at) > LEAST_NM.max(TIMES * step.median) && is_wide(at) && width(at) > GROWTH * beside(at));
     // The first of the widest.
     if let Some(at) = holes.clone().rev().max_by(|a, b| width(*a).total_cmp(&width(*b))) {
         let mut lines = [grid.line(at), grid.line(at + 1)];

@@ -97,6 +97,7 @@ fn group_name(dialect: Dialect, heads: &[&str], group: &Group) -> String {
         group.start.checked_sub(1).and_then(|at| heads.get(at)).filter(|cell| dialect.parse(cell) == Cell::Text);
     let suffix = group.suffix.trim_start_matches('_');
     match (group.prefix.as_str(), before) {
+        (prefix, _) if !prefix.is_empty() && !suffix.is_empty() => format!("{prefix}_{suffix}"),
         ("", _) if !suffix.is_empty() => suffix.to_owned(),
         ("", Some(name)) if group.start > 1 => (*name).to_owned(),
         ("", _) => format!("columns {} to {}", group.start + 1, group.end()),
@@ -157,6 +158,8 @@ struct Rows<'a> {
     dialect: Dialect,
     across: &'a Across,
     name_column: usize,
+    /// The head of the column of the names, which tells what numbers there are: `octane`.
+    property: Option<String>,
     curves: Vec<RawCurve>,
     gaps: usize,
     gap_lines: LineList,
@@ -176,7 +179,16 @@ struct Rows<'a> {
 
 impl<'a> Rows<'a> {
     fn new(dialect: Dialect, across: &'a Across, leading: &[&str], suspects: Vec<(usize, bool)>) -> Self {
+        let name_column = name_column(leading);
+        let is_property = |head: &&&str| {
+            head.contains(char::is_alphabetic)
+                && !(header_terms::is_count(head)
+                    || header_terms::is_label(head)
+                    || header_terms::names_wavelengths(head))
+        };
+        let property = leading.get(name_column).filter(is_property).map(|head| excerpt(head));
         Self {
+            property,
             suspects,
             labels: Vec::new(),
             kind_column: kind_column(leading),
@@ -184,7 +196,7 @@ impl<'a> Rows<'a> {
             lines: BTreeMap::new(),
             dialect,
             across,
-            name_column: name_column(leading),
+            name_column,
             curves: Vec::new(),
             gaps: 0,
             gap_lines: LineList::default(),
@@ -214,10 +226,11 @@ impl<'a> Rows<'a> {
                 let unit = units.strip_prefix("units=").and_then(|units| self.dialect.cells(units).nth(group.start));
                 header.unit = unit.and_then(unit_text::unit_cell).or(header.unit.take());
             } else if !line.trim_ascii().is_empty() && line != header_line && is_row() && !is_types() {
-                if !self.curves.is_empty() && group.is_like(self.dialect, line) {
-                    return Ok(Some(number));
+                match group.is_like(self.dialect, line) {
+                    true if self.curves.is_empty() => self.scales.push(format!("line {number}")),
+                    true => return Ok(Some(number)),
+                    false => self.take(number, line)?,
                 }
-                self.take(number, line)?;
             }
         }
         Ok(None)
@@ -349,7 +362,12 @@ impl<'a> Rows<'a> {
         }
         let name = if names.0.is_empty() { names.1 } else { names.0 };
         let named = !name.is_empty();
-        let name = if named { name.replace("\"\"", "\"") } else { format!("Row {}", self.curves.len() + 1) };
+        let count = self.curves.len() + 1;
+        let name = match self.property.as_ref().filter(|_| name.contains(['.', ','])) {
+            Some(property) if matches!(self.dialect.parse(name), Cell::Number(_)) => format!("{property} {name}"),
+            _ if named => name.replace("\"\"", "\""),
+            _ => format!("Row {count}"),
+        };
         Ok(Some(RawCurve { name, named, values, origin: number, ..RawCurve::default() }))
     }
 

@@ -60,7 +60,7 @@ fn commas_that_separate_and_mark_are_read_where_chosen() {
     assert_eq!(refused, ReadError::AmbiguousCommas(1));
     assert!(refused.to_string().ends_with("choose decimal commas, or points if not"), "{refused}");
     assert_eq!(samples(&with_commas(text).unwrap().curves[0]), [(400.0, 0.06), (410.0, 0.07), (420.0, 0.085)]);
-    let both = with_commas("nm,A\n400,5,0,060\n401,0,0,070\n401,5,0,085\n").unwrap();
+    let both = with_commas("nm,B\n400,5,0,060\n401,0,0,070\n401,5,0,085\n").unwrap();
     assert_eq!(samples(&both.curves[0]), [(400.5, 0.06), (401.0, 0.07), (401.5, 0.085)]);
     let points = ReadOptions { decimal_mark: Some(DecimalMark::Point), ..ReadOptions::default() };
     assert_eq!(read(text.as_bytes(), &points).unwrap().curves.len(), 2);

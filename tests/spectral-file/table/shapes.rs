@@ -302,7 +302,8 @@ fn words_of_other_languages() {
 fn one_warning_for_all_gaps_of_one_kind() {
     let mut text = "nm,A\n".to_owned();
     (400..460).for_each(|nm| text += &format!("{nm},0.5\n"));
-    (0..10).for_each(|at| text += &format!("{},0.5\n", 500 + at * (30 + at)));
+    let islands = (0..10).map(|at| 500 + at * (30 + at));
+    islands.for_each(|nm| text += &format!("{nm},0.5\n{},0.5\n", nm + 1));
     let holes: Vec<Warning> = ok(&text).warnings;
     assert!(matches!(holes[..], [Warning::Hole { count: 10, .. }]), "{holes:?}");
     assert!(holes[0].to_string().ends_with("as in 9 other places"), "{}", holes[0]);

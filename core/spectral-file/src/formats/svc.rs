@@ -1,7 +1,8 @@
 //! Field spectrometers of Spectra Vista, before called GER (`.sig`): `key= value` lines, then `data=` and rows of a wavelength, the
 //! radiances of the reference and of the target, and their ratio in percent. Ranges of detectors may overlap.
 
-use crate::decision::{Decided, DecimalMark, Decision, Delimiter, Quantity, Reader, Role, Values, WavelengthUnit};
+use crate::decision::{Decided, Decision, Delimiter, Quantity, Reader, Role, Values, WavelengthUnit};
+use crate::dialect::Dialect;
 use crate::error::ReadError;
 use crate::formats::Format;
 use crate::formats::spectra::{self, Found, Sample, Spectrum};
@@ -42,8 +43,8 @@ fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, R
         header.note(line, key.trim(), value.trim());
     }
     let mut rows = lines.filter(|(_, line)| !line.trim().is_empty()).peekable();
-    let (first_line, width) =
-        rows.peek().map(|(line, text)| (*line, text.split_whitespace().count())).unwrap_or_default();
+    let (first_line, first) = rows.peek().copied().unwrap_or_default();
+    let (width, mark) = (first.split_whitespace().count(), Dialect::of_number(first).mark);
     if !(2..=1 + COLUMNS.len()).contains(&width) {
         return Err(if first_line == 0 {
             ReadError::NoNumbers
@@ -82,7 +83,7 @@ fn read(text: &str, options: &ReadOptions, log: &mut Log<'_>) -> Result<Found, R
         grid.header.quantity = header_terms::quantity(&units).map(|quantity| (line, quantity));
     }
     let why = "The first line names it";
-    let dialect = (Delimiter::Spaces, DecimalMark::Point);
+    let dialect = (Delimiter::Spaces, mark);
     Ok(Found::fixed(grid, Decided::certain(Reader::SVC, why), (dialect, first_line, why), notes))
 }
 

@@ -115,7 +115,9 @@ impl Header {
     /// each above its values, or above its wavelengths; also from above `X,Y,X,Y`, as digitizers of plots write.
     fn take_samples(&mut self, above: Option<&(usize, &str)>, first: bool, layout: &Layout) {
         // Cary WinUV says so of a spectrum without a name.
-        let is_name = |line: &str| comment(line).is_none() && !line.starts_with("Created as New Dataset");
+        let is_new =
+            |line: &str| line.starts_with("Created as New Dataset") || line.starts_with("Erstellt als neuer Datensatz");
+        let is_name = |line: &str| comment(line).is_none() && !is_new(line);
         let Some(&(number, line)) = above.filter(|(_, line)| is_name(line)) else { return };
         let cells = split(layout.dialect(), line);
         let is_axis = |column: usize| {

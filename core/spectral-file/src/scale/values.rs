@@ -190,6 +190,8 @@ pub(super) struct Span {
 pub(super) struct Evidence {
     /// Those of each curve; `None` where it has no value.
     pub(super) curves: Vec<Option<Span>>,
+    /// True if there are values elsewhere.
+    within: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -245,7 +247,7 @@ impl Evidence {
         let everywhere = !grid.wavelengths.iter().any(visible);
         let judged = |w: &f64| everywhere || visible(w);
         let spans = grid.curves.iter().map(|curve| Span::of(&grid.wavelengths, &curve.values, judged));
-        Self { curves: spans.collect() }
+        Self { curves: spans.collect(), within: !everywhere && !grid.wavelengths.iter().all(visible) }
     }
 
     pub(super) fn range(&self) -> (f64, f64) {
@@ -258,6 +260,7 @@ impl Evidence {
     }
 
     pub(super) fn words(&self) -> String {
-        format!("Values reach {}", short(self.range().1, 4))
+        let within = if self.within { " from 400 to 700 nm" } else { "" };
+        format!("Values reach {}{within}", short(self.range().1, 4))
     }
 }
