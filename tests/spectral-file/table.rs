@@ -10,6 +10,7 @@ mod evidence;
 mod judged;
 mod judged_columns;
 mod judged_eighth;
+mod judged_eleventh;
 mod judged_fourth;
 mod judged_more;
 mod judged_ninth;

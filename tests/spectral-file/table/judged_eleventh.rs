@@ -1,0 +1,90 @@
+//! What an audit of files that nobody had judged found to be read in silence as what it is not; numbers of our own.
+
+use spectral_file::{Certainty, ReadError, ReadOptions, Role, Values, Warning, WavelengthUnit, read};
+
+use super::{error, lines, names, of_file, ok, samples};
+
+fn warned(text: &str, is: fn(&Warning) -> bool) -> bool {
+    ok(text).warnings.iter().any(is)
+}
+
+#[test]
+fn numbers_in_no_order_are_no_wavelengths() {
+    let scattered =
+        |columns: &str| lines(|at| format!("{},{},{}{columns}\n", 400 + at * 37 % 101, at * 53 % 97, at * 29 % 89));
+    assert!(matches!(error(&scattered("")), ReadError::NoWavelengths(_)));
+    assert_eq!(ok(&format!("wavelength,a,b\n{}", scattered(""))).curves.len(), 2);
+    // Points picked off a plot.
+    let picked = lines(|at| {
+        let nm = 400 + at * 37 % 101;
+        format!("{nm}.5,0.{nm}\n")
+    });
+    assert_eq!(ok(&picked).curves.len(), 1);
+    assert!(matches!(error("run\nt,x,y\n0.35,1,2\n0.45,2,3\n0.55,4,5\n"), ReadError::NoWavelengths(2)));
+}
+
+#[test]
+fn integrals_steps_and_sizes_are_said() {
+    let sum = lines(|nm| format!("{}.5,{}\n", nm, (nm - 400) * (nm - 400)));
+    assert!(warned(&sum, |warning| matches!(warning, Warning::Integral { count: 1, .. })));
+    let set = lines(|nm| format!("{nm}.5,65,0.{},0.{}\n", nm % 83, nm % 79));
+    assert!(warned(&set, |warning| matches!(warning, Warning::Stepped { count: 1, .. })));
+    let logs = lines(|nm| format!("{nm},-{}.5\n", nm % 7));
+    assert!(warned(&logs, |warning| matches!(warning, Warning::BelowZero { .. })));
+    let ends = lines(|nm| format!("{nm} {} 0.{}\n", nm + 1, nm % 83));
+    assert!(warned(&ends, |warning| matches!(warning, Warning::UpperEnds([2, 1]))));
+    let graded = (0..30).map(|at| format!("{},0.5\n", 400.0 * 1.1_f64.powi(at))).collect::<String>();
+    assert!(!warned(&graded, |warning| matches!(warning, Warning::Hole { .. })));
+}
+
+#[test]
+fn minus_one_again_and_again_is_no_value() {
+    let text = lines(|nm| if nm % 8 == 0 { format!("{nm},-1\n") } else { format!("{nm},0.{nm}\n") });
+    let table = ok(&format!("nm,reflectance\n{text}"));
+    assert_eq!(table.curves[0].values.len(), 35);
+    // Before the mean of rows at one wavelength.
+    let table = ok("nm,reflectance\n400,0.5\n400,-999\n410,0.5\n420,0.6\n430,0.7\n");
+    assert_eq!(samples(&table.curves[0])[0], (400.0, 0.5));
+}
+
+#[test]
+fn tables_side_by_side_keep_their_wavelengths() {
+    let text = "wavelength,a,,Wavelength_nm,b\n400,1,,400,5\n405,2,,401,6\n410,3,,402,7\n,,,403,8\n";
+    let table = ok(text);
+    assert_eq!(samples(&table.curves[0]), [(400.0, 1.0), (405.0, 2.0), (410.0, 3.0)]);
+    assert_eq!(samples(&table.curves[1]).len(), 4);
+    let paired = ok("wl_x r_x wl_y r_y\n400 1 350 5\n410 2 360 6\n420 3 370 7\n430 4 380 8\n");
+    assert_eq!((names(&paired), samples(&paired.curves[1])[0]), (vec!["r_x", "r_y"], (350.0, 5.0)));
+}
+
+#[test]
+fn bands_of_detectors_overlap() {
+    let heads = (0..40).chain(38..80).map(|at| format!(",{}.5", 400 + 10 * at)).collect::<String>();
+    let rows = format!("class{heads}\nsoil{}\nleaf{}\n", ",0.5".repeat(82), ",0.25".repeat(82));
+    let table = ok(&rows);
+    assert_eq!((names(&table), table.reading.range_nm), (vec!["soil", "leaf"], [400.5, 1190.5]));
+    let second = (0..82).map(|at| format!(",{}.25", 400 + 9 * at)).collect::<String>();
+    let two = rows.replacen('\n', &format!("\nclass{second}\n"), 1);
+    assert!(ok(&two).warnings.iter().any(|warning| matches!(warning, Warning::OtherAxes { .. })));
+    let octane = format!("octane{heads}\n85.3{}\n88.45{}\n", ",0.5".repeat(82), ",0.25".repeat(82));
+    assert_eq!(names(&ok(&octane)), ["octane 85.3", "octane 88.45"]);
+}
+
+#[test]
+fn words_that_tell_what_curves_are() {
+    let rows = lines(|nm| format!("{nm},0.5\n"));
+    let absorbance = ok(&format!("nm,A\n{rows}"));
+    assert_eq!((absorbance.reading.values.value, absorbance.role.certainty), (Values::Absorbance, Certainty::Guess));
+    assert_eq!(of_file("color_matching_functions.csv", &rows).role.value, Role::Camera);
+    assert_eq!(ok(&format!("# converted to mW / (m2 nm)\n{}", rows.replace(',', " "))).role.value, Role::Illuminant);
+    let ruled = ok(&format!("# lambda [nm]  transmission\n#------\n{}", rows.replace(',', " ")));
+    assert_eq!((ruled.role.value, ruled.role.certainty), (Role::Transmittance, Certainty::Certain));
+    let filter = lines(|at| format!("{}.5 0.5\n", 4000 + 10 * at));
+    assert_eq!(ok(&format!("A normalised\n{filter}")).reading.wavelength_unit.value, WavelengthUnit::Angstrom);
+    let sampled = format!("# Starting Wavelength: 4000.5 (Angstroms)\n{filter}");
+    assert_eq!(ok(&sampled).reading.wavelength_unit.value, WavelengthUnit::Angstrom);
+    let set = lines(|nm| format!("{nm}\t0.{nm}\t0.{}\n", nm % 83));
+    assert_eq!(names(&ok(&format!("nm\tEQE\teta\tBias (V):\t0.5\tArea:\t2\n{set}"))), ["EQE", "eta"]);
+    let many = read(format!("nm,a,b,c,d,e\n{rows}").as_bytes(), &ReadOptions::default()).unwrap();
+    assert!(many.warnings.contains(&Warning::NamesDiffer { names: 6, columns: 2 }));
+}
