@@ -453,9 +453,13 @@ fn raw_curve(header: &Header, column: usize, only: bool, values: Vec<f64>) -> Ra
     RawCurve { name, named, column: Some(column + 1), origin: column, label, unit, values, ..RawCurve::default() }
 }
 
+/// Columns behind the last name that are no doubt of the names before it.
+const FEW_UNNAMED: usize = 1;
+
 /// A named column that is empty in every row is no column of the rows, but its absence is reported.
 fn warn_of_names_without_columns(header: &Header, width: usize, surplus: bool, log: &mut Log<'_>) {
-    if surplus {
+    let unnamed = header.names.len() + FEW_UNNAMED < width && header.names.len() > 1;
+    if surplus || unnamed {
         return log.push(Warning::NamesDiffer { names: header.names.len(), columns: width });
     }
     let mut names = header.names.iter().enumerate().skip(width).filter(|(_, name)| !name.is_empty());

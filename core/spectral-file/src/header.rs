@@ -263,6 +263,12 @@ fn ecsv_column(body: &str) -> Option<(&str, &str)> {
     Some((name, rest[..rest.find([',', '}'])?].trim()))
 }
 
+/// The columns below the settings of a Woollam ellipsometer, of angles and of reflectances or transmittances.
+const WOOLLAM: [(&str, &[&str]); 2] = [
+    ("VASEmethod[", &["Wavelength", "Angle of incidence", "Psi", "Delta", "SD of Psi", "SD of Delta"]),
+    ("RTmethod[", &["Type", "Wavelength", "Angle of incidence", "Intensity ratio", "SD of Intensity ratio"]),
+];
+
 /// A line of names without the sign of a comment that no blank follows: `%Wavelength, leaf`.
 fn unmarked(line: &str) -> &str {
     let names = line.trim_start().strip_prefix('%').filter(|names| names.to_lowercase().starts_with("wavelength"));
@@ -294,6 +300,12 @@ impl Header {
         // Spextool's spectra of NASA's Infrared Telescope Facility name no columns.
         if text.contains("Xspextool") && (3..=SPEXTOOL.len()).contains(&layout.width) {
             return Some(SPEXTOOL[..layout.width].iter().map(|&name| name.to_owned()).collect());
+        }
+        // Woollam's ellipsometers: each row of what they measured is at an angle, with its errors.
+        for (method, names) in WOOLLAM {
+            if text.starts_with(method) && names.len() == layout.width {
+                return Some(names.iter().map(|&name| name.to_owned()).collect());
+            }
         }
         let (unit, names) = aria_columns(text).filter(|(_, names)| names.len() == layout.width)?;
         self.x_unit = Some((number, unit));

@@ -355,7 +355,7 @@ pub(super) fn role_of_bands(prefix: &str) -> Option<Role> {
 
 /// Returns whether a text is the word for what is measured and nothing else.
 pub(super) fn is_quantity(text: &str) -> bool {
-    let word = !text.trim().contains(|c: char| !c.is_alphabetic());
+    let word = !text.trim().trim_end_matches('.').contains(|c: char| !c.is_alphabetic());
     word && (quantity(text).is_some() || is_one(&lower(text), "value|values|intensity|signal"))
 }
 
@@ -577,7 +577,7 @@ pub(super) fn names_time(text: &str) -> bool {
 
 /// Returns whether a column's header names a quantity over which no spectrum runs: a time, a temperature, an angle, a place.
 pub(super) fn names_other_axis(text: &str) -> bool {
-    const QUANTITIES: &str = "t|pressure|distance|position|mass|height|weight|volume|concentration|concentracion|concentración|conc|time|seconds|minutes|hours|elapsed|temperature|temp|theta|2theta|angle|lon|longitude|lat|\
+    const QUANTITIES: &str = "binding|t|pressure|distance|position|mass|height|weight|volume|concentration|concentracion|concentración|conc|time|seconds|minutes|hours|elapsed|temperature|temp|theta|2theta|angle|lon|longitude|lat|\
         latitude|current|voltage|date|year|month|day|hour";
     const UNITS: &str = "s|sec|ms|msec|min|h|k|°c|°|deg|degree|degrees|ma|mg/kg";
     let text = lower(text);
@@ -585,7 +585,9 @@ pub(super) fn names_other_axis(text: &str) -> bool {
         text.rsplit_once(['(', '[', ','])
             .is_some_and(|(_, unit)| is_one(unit.trim_end_matches([')', ']']).trim(), UNITS))
     };
-    !names_wavelengths(&text) && (words(&text).next().is_some_and(|word| is_one(word, QUANTITIES)) || unit())
+    let is_number = || is_one(&text, "nr|nr.|id") || text.ends_with("_id") || text.ends_with(" id");
+    !names_wavelengths(&text)
+        && (words(&text).next().is_some_and(|word| is_one(word, QUANTITIES)) || unit() || is_number())
 }
 
 /// Index of the column header that names the wavelengths: those in nanometers before those in other units. A first one without a

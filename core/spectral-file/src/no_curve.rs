@@ -84,13 +84,14 @@ fn is_index_part(name: &str) -> bool {
     name.rsplit(['_', ' ']).next().is_some_and(|part| is_one(part, "n|k"))
 }
 
-/// Warns of columns that hold one number only: zero, or without a name one that may count or mark rows.
+/// Warns of columns that hold one number only: zero, or any without a name.
 fn warn_of_constants(grid: &Grid, log: &mut Log<'_>) {
     const FEWEST: usize = 10;
     let is_constant = |curve: &&RawCurve| {
         let value = curve.values[0];
-        let marks = value == 0.0 || !curve.named && grid.curves.len() > 1 && value.fract() == 0.0;
-        marks && curve.values.len() >= FEWEST && curve.values.iter().all(|other| *other == value)
+        (value == 0.0 || !curve.named && grid.curves.len() > 1)
+            && curve.values.len() >= FEWEST
+            && curve.values.iter().all(|other| *other == value)
     };
     let mut constant = grid.curves.iter().filter(is_constant);
     if let Some(first) = constant.next() {
@@ -131,22 +132,27 @@ fn warn_of_integrals(grid: &Grid, log: &mut Log<'_>) {
     }
 }
 
-/// Warns of columns of whole numbers, or of few different ones, beside others that have neither.
+/// Warns of columns of whole numbers, or of few or nearly equal ones, beside others that are not so.
 fn warn_of_steps(grid: &Grid, log: &mut Log<'_>) {
     const FEWEST_VALUES: usize = 10;
     const LEVELS: usize = 3;
+    const STEADY: f64 = 0.01;
+    const FEW_OF: usize = 10;
     let is_stepped = |curve: &&RawCurve| {
+        let present = || curve.values.iter().copied().filter(|value| !value.is_nan());
         let mut levels = Vec::new();
-        for value in curve.values.iter().filter(|value| !value.is_nan()) {
-            if levels.len() <= LEVELS && !levels.contains(value) {
-                levels.push(*value);
+        for value in present() {
+            if levels.len() <= LEVELS && !levels.contains(&value) {
+                levels.push(value);
             }
         }
-        let whole = || curve.values.iter().all(|value| value.is_nan() || value.fract() == 0.0);
-        levels != [0.0]
-            && (levels.len() <= LEVELS || whole())
-            && curve.name != "E"
-            && !header_terms::names_illuminant(&curve.name)
+        // Of which others warn.
+        let is_constant = levels.len() == 1 && (levels[0] == 0.0 || !curve.named);
+        let (low, high) = extent(present());
+        let steady = || high - low < STEADY * high.abs().max(low.abs());
+        let whole = || FEW_OF * present().filter(|value| value.fract() != 0.0).count() < present().count();
+        let is_light = || curve.name == "E" || header_terms::names_illuminant(&curve.name);
+        !is_constant && (levels.len() <= LEVELS || steady() || whole()) && !is_light()
     };
     let stepped: Vec<&RawCurve> = grid.curves.iter().filter(is_stepped).collect();
     if let [first, ..] = stepped[..]
@@ -179,13 +185,15 @@ fn is_companion(curve: &RawCurve, made: bool) -> bool {
         inside('(', ')') || inside('[', ']')
     });
     let bare = name.split(['(', '[']).next().unwrap_or_default().trim().replace('_', " ");
-    let angle = bare.rsplit(' ').next().is_some_and(|word| is_one(word, "azimuth|zenith"));
+    let angle = bare.rsplit(' ').next().is_some_and(|word| is_one(word, "azimuth|zenith|incidence"));
     let signal = made && bare.rsplit(' ').next().is_some_and(|word| is_one(word, SIGNALS));
     let width = bare.split(' ').any(|word| is_one(word, "wdth|width|halfwidth|binwidth"));
     let named = signal || angle || width || is_one(&bare, NAMES) || is_one(&name, NAMES);
     let of_all = is_one(&bare, OF_SPECTRUM) && curve.values.iter().all(|value| *value == curve.values[0]);
-    let counts =
-        header_terms::is_count(&bare) && !bare.contains(' ') && curve.values.len() > 2 && counts(&curve.values);
+    // A pixel of each of a few lines, too.
+    let in_order = || runs_one_way(&curve.values) && curve.values.iter().all(|value| value.fract() == 0.0);
+    let counted = || counts(&curve.values) || is_one(&bare, "pixel|pixels") && in_order();
+    let counts = header_terms::is_count(&bare) && !bare.contains(' ') && curve.values.len() > 2 && counted();
     // What names a quantity of light is a spectrum, whatever stands in brackets.
     let integral = begins(&label, "cumulative|cumulated|integrated irradian|integrated radian");
     of_all || integral || (named || bracketed || counts) && header_terms::role(&curve.label).is_none()
@@ -276,7 +284,9 @@ pub(super) fn leave_out_uncomputed(grid: &mut Grid, log: &mut Log<'_>) {
         header_terms::role(&curve.label).is_some()
             || header_terms::values(&curve.label).is_some_and(|v| v != Values::Plain)
     };
-    let is_zero = |curve: &RawCurve| curve.values.iter().all(|value| *value == 0.0 || value.is_nan());
+    let is_zero = |curve: &RawCurve| {
+        curve.values.contains(&0.0) && curve.values.iter().all(|value| *value == 0.0 || value.is_nan())
+    };
     let marks: Vec<bool> = grid.curves.iter().map(|curve| is_zero(curve) && says(curve)).collect();
     let Some(first) = marks.iter().position(|mark| *mark) else { return };
     let mut measured = grid.curves.iter().filter(|curve| !is_zero(curve)).peekable();

@@ -309,7 +309,7 @@ impl Sniffer<'_> {
                     Decided::certain(DecimalMark::Comma, "Fractions stand after commas")
                 }
                 Some(b'.') => Decided::certain(DecimalMark::Point, "Fractions stand after points"),
-                _ => Decided::guess(mark, "No number has a fraction"),
+                _ => Decided::guess(mark, "No number looked at has a fraction"),
             }
         })
     }

@@ -349,7 +349,7 @@ impl Stated {
             StatedScale::SamePercent if scale == Values::Percent => (POINTS, false),
             // Uncertainties above the values themselves are of another scale.
             StatedScale::Percent if scale == Values::Percent && above * 4 < values.len() => (POINTS, true),
-            StatedScale::SamePercent | StatedScale::Percent => (OF_VALUE, role != Role::Illuminant),
+            StatedScale::SamePercent | StatedScale::Percent => (OF_VALUE, role.is_fraction()),
             StatedScale::Part if median(self.numbers.iter().copied()) > 1.0 => (OF_VALUE, true),
             StatedScale::Part => (PART, true),
         };

@@ -79,7 +79,7 @@ const WORDS: [(Kind, bool, &str); 11] = [
     (
         Kind::Unsaid,
         true,
-        "uncertainty|uncertainties|uncert|messunsicherheit|unsicherheit|incertitude|incertidumbre|incertezza|incerteza|\
+        "uncertainty|uncertainties|uncert|uncerts|messunsicherheit|unsicherheit|incertitude|incertidumbre|incertezza|incerteza|\
          不確かさ|不确定度",
     ),
     (Kind::Unsaid, false, "unc|err|error|errors|error bar|±"),

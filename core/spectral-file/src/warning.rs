@@ -85,7 +85,7 @@ pub enum Warning {
         /// A number that was taken for a missing value.
         sentinel: Option<Sentinel>,
     },
-    #[error("{names} names stand above {columns} columns: they are not used")]
+    #[error("{names} names stand above {columns} columns: {}", if .names > .columns { "they are not used" } else { "they may belong to others than they stand above" })]
     NamesDiffer { names: usize, columns: usize },
     #[error("{}", empty_curves(*.count, .first))]
     EmptyCurves { count: usize, first: String },
@@ -197,8 +197,8 @@ pub enum Warning {
     OtherSize { count: usize, first: String, other: String },
     #[error("{first}{} only rises, from nothing to its end: leave it out if it is an integral", and_more(*.count))]
     Integral { count: usize, first: String },
-    /// Columns of whole numbers, or of few different ones, beside others.
-    #[error("{first}{}: only whole numbers or a few different ones, unlike the others: leave out what is no spectrum", and_more(*.count))]
+    /// Columns of whole numbers, or of few or nearly equal ones, beside others.
+    #[error("{first}{}: only whole, few different or nearly equal numbers, unlike the others: leave out what is no spectrum", and_more(*.count))]
     Stepped { count: usize, first: String },
     /// Columns of quantities that hold only zeros.
     #[error("{first}{}: only zeros, as programs write for what they did not compute: left out", and_more(*.count))]

@@ -84,16 +84,18 @@ fn unit_from_range(grid: &Grid) -> Result<Decided<WavelengthUnit>, ReadError> {
     Ok(Decided::guess(unit, format!("Wavelengths run from {min} to {max}")))
 }
 
-/// True for wavelengths by their name, in order and below 1000, of which some are in range as micrometers: optical constants reach
-/// from the far ultraviolet to the far infrared.
+/// True for wavelengths by their name or their span, in order and below 1000, of which some are in range as micrometers: optical
+/// constants reach from the far ultraviolet to the far infrared.
 fn are_partly_micrometers(grid: &Grid, (min, max): (f64, f64)) -> bool {
     const FROM_TO: (f64, f64) = (0.1, 25.0);
     const MOST: f64 = 1000.0;
+    const FAR: f64 = 1000.0;
     let numbers = &grid.wavelengths;
     let sorted = numbers.is_sorted_by(|a, b| a <= b) || numbers.is_sorted_by(|a, b| a >= b);
     let within = numbers.iter().filter(|number| (FROM_TO.0..=FROM_TO.1).contains(*number)).count();
     let fractions = 2 * numbers.iter().filter(|number| number.fract() != 0.0).count() > numbers.len();
-    is_named(grid) && sorted && within >= FEW && fractions && min > 0.0 && max <= MOST
+    let told = is_named(grid) || max > FAR * min;
+    told && sorted && within >= FEW && fractions && min > 0.0 && max <= MOST
 }
 
 /// True for numbers that are mostly energies in eV of whole or half nanometers, h c / λ, of which micrometers are none.
@@ -174,7 +176,7 @@ const FEW: usize = 10;
 /// Where numbers may begin that are ångströms if they reach as far as from the second to the third, beyond the range of nanometers.
 const ANGSTROMS: std::ops::RangeInclusive<f64> = 30.0..=250_000.0;
 const MOST_NM: f64 = 3000.0;
-const MOST_ANGSTROM: f64 = 2e6;
+const MOST_ANGSTROM: f64 = 1e9;
 
 /// Names the columns of a matrix by its first row, behind a zero in the corner: delays or wavelengths of excitation, in order.
 fn name_by_corner(grid: &mut Grid) {

@@ -137,14 +137,19 @@ fn names_type(cell: &str) -> bool {
     is_one(cell, TYPES)
 }
 
+const NAMES: [&str; 7] = ["name", "sample", "label", "patch", "color", "tag", "id"];
+
+/// Returns whether the head of a column has one of the words for names.
+fn is_headed(head: &str, wanted: &str) -> bool {
+    match wanted {
+        // `humidity` and `voltage` hold them.
+        "tag" | "id" => head.ends_with(wanted) || has_word(&head.replace('_', " "), wanted),
+        _ => head.contains(wanted),
+    }
+}
+
 /// The leading column that best names a row: one headed so, else the first.
 pub(super) fn name_column(leading: &[&str]) -> usize {
-    const NAMES: [&str; 7] = ["name", "sample", "label", "patch", "color", "tag", "id"];
-    // `humidity` and `voltage` hold the last two.
-    let is_headed = |cell: &str, wanted: &str| match wanted {
-        "tag" | "id" => cell.ends_with(wanted) || has_word(&cell.replace('_', " "), wanted),
-        _ => cell.contains(wanted),
-    };
     let headed = |wanted: &&str| leading.iter().position(|cell| is_headed(&cell.to_lowercase(), wanted));
     NAMES.iter().find_map(headed).unwrap_or(0)
 }
@@ -182,6 +187,7 @@ impl<'a> Rows<'a> {
         let name_column = name_column(leading);
         let is_property = |head: &&&str| {
             head.contains(char::is_alphabetic)
+                && !NAMES.iter().any(|name| is_headed(&head.to_lowercase(), name))
                 && !(header_terms::is_count(head)
                     || header_terms::is_label(head)
                     || header_terms::names_wavelengths(head))

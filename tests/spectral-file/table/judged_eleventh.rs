@@ -27,12 +27,15 @@ fn numbers_in_no_order_are_no_wavelengths() {
 fn integrals_steps_and_sizes_are_said() {
     let sum = lines(|nm| format!("{}.5,{}\n", nm, (nm - 400) * (nm - 400)));
     assert!(warned(&sum, |warning| matches!(warning, Warning::Integral { count: 1, .. })));
-    let set = lines(|nm| format!("{nm}.5,65,0.{},0.{}\n", nm % 83, nm % 79));
+    let set = lines(|nm| format!("{nm}.5,{},0.{},0.{}\n", 64 + nm % 2, nm % 83, nm % 79));
     assert!(warned(&set, |warning| matches!(warning, Warning::Stepped { count: 1, .. })));
     let logs = lines(|nm| format!("{nm},-{}.5\n", nm % 7));
     assert!(warned(&logs, |warning| matches!(warning, Warning::BelowZero { .. })));
     let ends = lines(|nm| format!("{nm} {} 0.{}\n", nm + 1, nm % 83));
     assert!(warned(&ends, |warning| matches!(warning, Warning::UpperEnds([2, 1]))));
+    let bias = lines(|nm| format!("{nm}.5,0.{},42.{}\n", nm % 83, nm % 3));
+    assert!(warned(&format!("nm,cell,bias\n{bias}"), |warning| matches!(warning, Warning::NotSpectra { .. })));
+    assert!(warned(&format!("nm,cell,lock\n{bias}"), |warning| matches!(warning, Warning::Stepped { .. })));
     let graded = (0..30).map(|at| format!("{},0.5\n", 400.0 * 1.1_f64.powi(at))).collect::<String>();
     assert!(!warned(&graded, |warning| matches!(warning, Warning::Hole { .. })));
 }
@@ -68,6 +71,30 @@ fn bands_of_detectors_overlap() {
     assert!(ok(&two).warnings.iter().any(|warning| matches!(warning, Warning::OtherAxes { .. })));
     let octane = format!("octane{heads}\n85.3{}\n88.45{}\n", ",0.5".repeat(82), ",0.25".repeat(82));
     assert_eq!(names(&ok(&octane)), ["octane 85.3", "octane 88.45"]);
+}
+
+#[test]
+fn rows_at_angles_of_an_ellipsometer() {
+    let rows = lines(|nm| format!("{nm}\t65\t45.{nm}\t120.5\t0.01\t0.02\n"));
+    let table = ok(&format!("wafer\nVASEmethod[EllipsometerType=4]\nnm\n{rows}"));
+    assert_eq!((names(&table), table.role.certainty), (vec!["Psi", "Delta"], Certainty::Open));
+    assert!(table.curves.iter().all(|curve| curve.uncertainty.is_some()));
+}
+
+#[test]
+fn lights_beside_sensitivities_are_asked_about() {
+    let rows = lines(|nm| format!("{nm},0.1,0.2,0.3,46\n"));
+    assert_eq!(ok(&format!("nm,x_bar,y_bar,z_bar,power\n{rows}")).role.certainty, Certainty::Open);
+    assert_eq!(
+        ok(&format!("color matching functions\nnm,x bar,y bar,V,CIE D65\n{rows}")).role.certainty,
+        Certainty::Open
+    );
+    let axis = |head: &str| {
+        read(format!("{head},a\n{}", lines(|nm| format!("{nm},0.5\n"))).as_bytes(), &ReadOptions::default())
+    };
+    for head in ["particle_id", "nr", "Binding energy (eV)"] {
+        assert!(axis(head).is_err(), "{head}");
+    }
 }
 
 #[test]

@@ -213,9 +213,9 @@ fn columns_beside_spectra_by_their_words() {
             .iter()
             .any(|warning| matches!(warning, Warning::Stepped { count: 1, .. }))
     };
-    assert!(steps(&lines(|nm| format!("{nm},12.{nm},0.{}\n", 2 + nm % 2))));
-    assert!(steps(&lines(|nm| format!("{nm},12.{nm},{}\n", nm % 7))));
-    assert!(!steps(&lines(|nm| format!("{nm},12.{nm},{}.25\n", nm % 7))));
+    assert!(steps(&lines(|nm| format!("{nm},{}.5,0.{}\n", nm % 83, 2 + nm % 2))));
+    assert!(steps(&lines(|nm| format!("{nm},{}.5,{}\n", nm % 83, nm % 7))));
+    assert!(!steps(&lines(|nm| format!("{nm},{}.5,{}.25\n", nm % 83, nm % 7))));
     assert!(table.curves[0].uncertainty.is_some());
     assert!(table.warnings.iter().any(|warning| matches!(warning, Warning::MaybeUncertainty { count: 1, .. })));
     let table = ok(&format!("wl_center depth wv_wdth Repeat\n{}", lines(|nm| format!("{nm} 0.{nm} 0.03 2\n"))));

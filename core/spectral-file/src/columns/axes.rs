@@ -230,7 +230,7 @@ pub(super) fn after_count(cells: &[Vec<f64>]) -> Option<usize> {
 pub(super) fn may_count(wavelengths: &[f64], column: &[f64]) -> bool {
     const MOST: f64 = 100.0;
     // Refractive indices are in order too.
-    const LEAST_RATIO: f64 = 1.3;
+    const LEAST_RATIO: f64 = 2.0;
     let is_axis = |low: f64, high: f64| {
         (units::plausible(low, high, true) || low >= 0.1 && high <= MOST) && high >= LEAST_RATIO * low
     };

@@ -54,7 +54,9 @@ impl Spectrum {
 
     /// Returns whether wavelengths fall from first to last.
     fn falls(&self) -> bool {
-        self.samples.windows(2).all(|pair| pair[1].wavelength < pair[0].wavelength)
+        let (first, last) = (self.samples.first(), self.samples.last());
+        first.zip(last).is_none_or(|(first, last)| last.wavelength < first.wavelength)
+            && self.samples.is_sorted_by(|a, b| a.wavelength >= b.wavelength)
     }
 
     /// Brings the samples into ascending order, one for each wavelength.
@@ -72,7 +74,9 @@ impl Spectrum {
             let next = self.samples[i];
             if next.wavelength == self.samples[kept].wavelength {
                 count += 1.0;
-                lines.push(next.line);
+                if next.value != self.samples[kept].value {
+                    lines.push(next.line);
+                }
                 self.merge(kept, &next, index, log);
                 let mean = &mut self.samples[kept].value;
                 *mean += (next.value - *mean) / count;

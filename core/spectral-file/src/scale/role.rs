@@ -14,7 +14,19 @@ const COUNTS: f64 = 1000.0;
 
 /// Role that words in the file state or mention, or that suits the scale that was chosen.
 pub(super) fn said(grid: &Grid, chosen: Option<Values>) -> Option<Decided<Role>> {
-    stated(grid).or_else(|| hinted(grid, chosen))
+    let said = stated(grid).or_else(|| hinted(grid, chosen))?;
+    let mut lights = grid.curves.iter().filter(|curve| header_terms::names_illuminant(&curve.name));
+    match lights.next().filter(|_| said.value == Role::Camera && said.certainty != Certainty::Certain) {
+        Some(light) => Some(Decided::open(
+            Role::Unknown,
+            format!(
+                "“{}” is a light, others are sensitivities: {}",
+                excerpt(&light.name),
+                chromascope_text::lowered(&said.why)
+            ),
+        )),
+        None => Some(said),
+    }
 }
 
 /// Role that the format, the header, the names of columns or a setting state.
@@ -42,7 +54,12 @@ fn stated(grid: &Grid) -> Option<Decided<Role>> {
         ));
     }
     let names: Vec<&str> = grid.curves.iter().take(MOST_CHANNELS + 1).map(|curve| curve.name.as_str()).collect();
-    if let Some(light) = names.iter().find(|name| channels(&names).is_some() && header_terms::names_illuminant(name)) {
+    let is_light = |curve: &&RawCurve| {
+        header_terms::names_illuminant(&curve.name)
+            || header_terms::channel(&curve.name).is_none() && header_terms::is_power(&curve.label)
+    };
+    if let Some(light) = grid.curves.iter().find(is_light).filter(|_| channels(&names).is_some()) {
+        let light = if light.named { &light.name } else { &light.label };
         let why = format!("The curves are named {}, of which {light} is a light", names.join(", "));
         return Some(Decided::open(Role::Unknown, why));
     }
@@ -96,7 +113,13 @@ fn none_of_the_roles(grid: &Grid) -> Option<String> {
     let alone = grid.curves.iter().all(|curve| curve.uncertainty.is_none()) && grid.header.own.is_empty();
     let who = match clues.uncertainties {
         _ if !alone => return None,
-        _ if grid.curves.iter().all(is_term) => "The header".to_owned(),
+        _ if grid
+            .curves
+            .iter()
+            .all(|curve| is_term(curve) || has_word(&curve.label.to_lowercase(), "uncertainty|uncertainties")) =>
+        {
+            "The header".to_owned()
+        }
         Some(0) => "The name of the file".to_owned(),
         Some(line) => format!("Line {line}"),
         None => return None,
@@ -367,6 +390,9 @@ pub(super) fn suggested(grid: &Grid, evidence: &Evidence) -> Decided<Role> {
     if let Some(label) = labels().next().filter(|_| labels().all(is_material)) {
         let why = format!("“{}” is a property of a material, not of a surface or a filter", excerpt(label));
         return Decided::open(Role::Unknown, why);
+    }
+    if grid.header.clues.fluorescence {
+        return Decided::open(Role::Unknown, "The file says that it is of fluorescence, neither a light nor a filter");
     }
     let (min, max) = evidence.range();
     let reflectances = if min >= -0.2 && max <= 1.2 { "reflectances" } else { "reflectances in percent" };
