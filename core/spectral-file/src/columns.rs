@@ -375,7 +375,12 @@ impl Columns {
             let name = header.name(column).unwrap_or_default().to_owned();
             log.push(Warning::TextColumns { count: 1, column: column + 1, name });
         } else {
-            warn_of_names_without_columns(&header, columns, surplus, log);
+            let filled = self.cells.iter().rposition(|column| !is_empty(column)).map_or(0, |last| last + 1);
+            if surplus || header.names.len() + FEW_UNNAMED < filled && header.names.len() > 1 {
+                log.push(Warning::NamesDiffer { names: header.names.len(), columns: filled });
+            } else {
+                warn_of_names_without_columns(&header, columns, log);
+            }
             if surplus {
                 header.names.truncate(at + 1);
                 header.units.truncate(at + 1);
@@ -457,11 +462,7 @@ fn raw_curve(header: &Header, column: usize, only: bool, values: Vec<f64>) -> Ra
 const FEW_UNNAMED: usize = 1;
 
 /// A named column that is empty in every row is no column of the rows, but its absence is reported.
-fn warn_of_names_without_columns(header: &Header, width: usize, surplus: bool, log: &mut Log<'_>) {
-    let unnamed = header.names.len() + FEW_UNNAMED < width && header.names.len() > 1;
-    if surplus || unnamed {
-        return log.push(Warning::NamesDiffer { names: header.names.len(), columns: width });
-    }
+fn warn_of_names_without_columns(header: &Header, width: usize, log: &mut Log<'_>) {
     let mut names = header.names.iter().enumerate().skip(width).filter(|(_, name)| !name.is_empty());
     if let Some((column, first)) = names.next() {
         let first = format!("“{first}” (column {})", column + 1);

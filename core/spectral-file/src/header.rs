@@ -266,7 +266,7 @@ fn ecsv_column(body: &str) -> Option<(&str, &str)> {
 /// The columns below the settings of a Woollam ellipsometer, of angles and of reflectances or transmittances.
 const WOOLLAM: [(&str, &[&str]); 2] = [
     ("VASEmethod[", &["Wavelength", "Angle of incidence", "Psi", "Delta", "SD of Psi", "SD of Delta"]),
-    ("RTmethod[", &["Type", "Wavelength", "Angle of incidence", "Intensity ratio", "SD of Intensity ratio"]),
+    ("RTmethod[", &["Type", "Wavelength", "Angle of incidence", "Ratio", "SD of Ratio"]),
 ];
 
 /// A line of names without the sign of a comment that no blank follows: `%Wavelength, leaf`.

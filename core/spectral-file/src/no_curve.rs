@@ -149,7 +149,7 @@ fn warn_of_steps(grid: &Grid, log: &mut Log<'_>) {
         // Of which others warn.
         let is_constant = levels.len() == 1 && (levels[0] == 0.0 || !curve.named);
         let (low, high) = extent(present());
-        let steady = || high - low < STEADY * high.abs().max(low.abs());
+        let steady = || curve.named && high - low < STEADY * high.abs().max(low.abs());
         let whole = || FEW_OF * present().filter(|value| value.fract() != 0.0).count() < present().count();
         let is_light = || curve.name == "E" || header_terms::names_illuminant(&curve.name);
         !is_constant && (levels.len() <= LEVELS || steady() || whole()) && !is_light()

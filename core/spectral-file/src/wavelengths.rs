@@ -89,12 +89,13 @@ fn unit_from_range(grid: &Grid) -> Result<Decided<WavelengthUnit>, ReadError> {
 fn are_partly_micrometers(grid: &Grid, (min, max): (f64, f64)) -> bool {
     const FROM_TO: (f64, f64) = (0.1, 25.0);
     const MOST: f64 = 1000.0;
+    const LEAST: f64 = 1e-3;
     const FAR: f64 = 1000.0;
     let numbers = &grid.wavelengths;
     let sorted = numbers.is_sorted_by(|a, b| a <= b) || numbers.is_sorted_by(|a, b| a >= b);
     let within = numbers.iter().filter(|number| (FROM_TO.0..=FROM_TO.1).contains(*number)).count();
     let fractions = 2 * numbers.iter().filter(|number| number.fract() != 0.0).count() > numbers.len();
-    let told = is_named(grid) || max > FAR * min;
+    let told = is_named(grid) || max > FAR * min && max > FROM_TO.1 && min >= LEAST && grid.header.names.is_empty();
     told && sorted && within >= FEW && fractions && min > 0.0 && max <= MOST
 }
 
