@@ -168,10 +168,19 @@ fn of_name(name: &str) -> Option<(Role, bool)> {
     let is_solar = ["am0", "am15", "astmg173"].iter().any(is_sun);
     let is_solar = is_solar || ["solarspectr", "sunspectr", "spectrumofthesun"].iter().any(|sun| short.contains(sun));
     let told = is_solar.then_some(Role::Illuminant);
-    let is_observer =
-        ["ciexyz", "xyz2e", "xyz10e", "linss", "colormatching", "colourmatching", "cie1931", "actionspectr"]
-            .iter()
-            .any(|observer| short.contains(observer));
+    let is_observer = [
+        "ciexyz",
+        "xyz2e",
+        "xyz10e",
+        "linss",
+        "colormatching",
+        "colourmatching",
+        "cie1931",
+        "actionspectr",
+        "stilesburch",
+    ]
+    .iter()
+    .any(|observer| short.contains(observer));
     let told = told.or(is_observer.then_some(Role::Camera));
     let is_chart = ["colorchart", "colourchart", "colorchecker", "macbeth"].iter().any(|chart| short.contains(chart));
     let told = told.or(is_chart.then_some(Role::Reflectance));

@@ -236,13 +236,29 @@ fn first_unit(body: &str) -> Option<WavelengthUnit> {
 }
 
 /// The name of the next column in a comment, by its number, or alone: `Column 1: wavelength nm`, `Column 2 = flux`, `Column flux`.
-fn described_column(body: &str, next: usize) -> Option<&str> {
+fn described_column(body: &str, next: usize) -> Option<String> {
+    if let Some(name) = byte_by_byte(body) {
+        return Some(name);
+    }
     let Some((key, name)) = body.split_once([':', '=']) else {
-        return body.strip_prefix("Column ").map(str::trim).filter(|name| name.chars().all(char::is_alphabetic));
+        let name = body.strip_prefix("Column ").map(str::trim);
+        return name.filter(|name| name.chars().all(char::is_alphabetic)).map(str::to_owned);
     };
     let (word, number) = key.trim().split_once(' ')?;
     let is_next = is_one(&lower(word), "column|col|col.|label") && number.trim().parse() == Ok(next);
-    Some(name.trim()).filter(|name| is_next && !name.is_empty())
+    Some(name.trim()).filter(|name| is_next && !name.is_empty()).map(str::to_owned)
+}
+
+/// Unit and label of a column in a table of the bytes of each, as journals of astronomy have them: ` 1-  6 F6.1   0.1nm Wave   …`.
+fn byte_by_byte(body: &str) -> Option<String> {
+    let (from, rest) = body.trim_start().split_once('-').unwrap_or(("1", body));
+    let mut words = rest.split_whitespace();
+    let (to, format, unit, label) = (words.next()?, words.next()?, words.next()?, words.next()?);
+    let is_number = |text: &str| text.trim().parse::<u16>().is_ok();
+    let is_format = format.strip_prefix(['F', 'I', 'E', 'A']).is_some_and(|size| size.parse::<f32>().is_ok());
+    let unit = if unit == "0.1nm" { "Angstrom" } else { unit };
+    let named = if unit.starts_with("--") { label.to_owned() } else { format!("{label} [{unit}]") };
+    (is_number(from) && is_number(to) && is_format).then_some(named)
 }
 
 /// The names of columns as files of the ARIA database give them: `FORMAT = Wavn n k`, wave numbers or wavelengths in micrometers.

@@ -140,17 +140,18 @@ fn warn_of_steps(grid: &Grid, log: &mut Log<'_>) {
     const FEW_OF: usize = 10;
     let is_stepped = |curve: &&RawCurve| {
         let present = || curve.values.iter().copied().filter(|value| !value.is_nan());
-        let mut levels = Vec::new();
-        for value in present() {
-            if levels.len() <= LEVELS && !levels.contains(&value) {
-                levels.push(value);
-            }
-        }
+        let mut levels: Vec<f64> = present().collect();
+        levels.sort_unstable_by(f64::total_cmp);
+        levels.dedup();
         // Of which others warn.
         let is_constant = levels.len() == 1 && (levels[0] == 0.0 || !curve.named);
         let (low, high) = extent(present());
         let steady = || curve.named && high - low < STEADY * high.abs().max(low.abs());
-        let whole = || FEW_OF * present().filter(|value| value.fract() != 0.0).count() < present().count();
+        // Counts of detectors are whole too, but hardly the same twice.
+        let whole = || {
+            let fractions = present().filter(|value| value.fract() != 0.0).count();
+            FEW_OF * fractions.max(levels.len()) < present().count().max(FEW_OF * FEWEST_VALUES)
+        };
         let is_light = || curve.name == "E" || header_terms::names_illuminant(&curve.name);
         !is_constant && (levels.len() <= LEVELS || steady() || whole()) && !is_light()
     };
@@ -170,6 +171,11 @@ fn is_blank(curve: &RawCurve) -> bool {
 /// True for the program's own tables, which hold neither numbers for gaps nor columns that are no curves.
 fn is_own(grid: &Grid) -> bool {
     !grid.header.own.is_empty()
+}
+
+/// Returns whether there is nothing but what is recorded beside spectra.
+pub(super) fn is_only_beside(grid: &Grid) -> bool {
+    !is_own(grid) && !grid.curves.is_empty() && grid.curves.iter().all(|curve| is_companion(curve, false))
 }
 
 /// `made` says that another column is what was made of signals.

@@ -7,7 +7,7 @@ use crate::report::Curve;
 use crate::scale::values::{Evidence, LARGEST_PERCENT, Looks};
 use crate::text::{excerpt, has_part, has_word, is_one};
 use crate::uncertainty_terms::{self, Sense};
-use crate::{quantity, unit_text};
+use crate::{no_curve, quantity, unit_text};
 
 /// Counts of detectors are larger, irradiances and radiances in the usual units smaller.
 const COUNTS: f64 = 1000.0;
@@ -100,6 +100,9 @@ fn stated(grid: &Grid) -> Option<Decided<Role>> {
 fn none_of_the_roles(grid: &Grid) -> Option<String> {
     if let Some(why) = grid.curves.iter().find_map(|curve| header_terms::not_converted(&curve.label)) {
         return Some(why.to_owned());
+    }
+    if no_curve::is_only_beside(grid) {
+        return Some(format!("“{}” stands beside spectra, and is none", excerpt(&grid.curves[0].name)));
     }
     let clues = &grid.header.clues;
     if let Some((line, why)) = clues.other.filter(|_| grid.header.role.is_none()) {
