@@ -193,11 +193,13 @@ pub(super) fn groups(dialect: Dialect, line: &str) -> Vec<Group> {
                 }
                 run.push((column, band));
             }
-            Step::Wrong => wrong += 1,
-            Step::Anew if beside && overlaps < MOST_OVERLAPS && begins_next_detector(&run, &band, next) => {
+            Step::Wrong | Step::Anew
+                if beside && overlaps < MOST_OVERLAPS && begins_next_detector(&run, &band, next) =>
+            {
                 run.push((column, band));
                 overlaps += 1;
             }
+            Step::Wrong => wrong += 1,
             Step::Anew => {
                 // Numbers that go up and down are values, unless a second spectrum begins where the first did, or one number
                 // stands behind many.
@@ -233,7 +235,9 @@ fn begins_next_detector(run: &[(usize, Band<'_>)], band: &Band<'_>, next: Option
     const LEAST_TIMES: f64 = 10.0;
     let ([(_, first), .., (_, last)], Some(next)) = (run, next) else { return false };
     let (so_far, back) = (last.wavelength - first.wavelength, last.wavelength - band.wavelength);
-    let on = (next.wavelength - band.wavelength) * so_far > 0.0 && next.goes_with(band);
+    // Nor is a number out of order among others that go on.
+    let (step, typical) = (next.wavelength - band.wavelength, so_far / (run.len() - 1) as f64);
+    let on = step > 0.0 && step < 2.0 * typical && next.goes_with(band);
     run.len() >= FEWEST_UNSAID && back * LEAST_TIMES < so_far && back > 0.0 && on
 }
 
@@ -314,6 +318,11 @@ fn group(run: &[(usize, Band<'_>)], wrong: usize, stated: Option<WavelengthUnit>
     let letter = is_one(first.prefix.trim_end_matches(['_', '.', ' ']).to_lowercase().as_str(), "a|b|l|band");
     let known = first.is_known() || first.prefix.is_empty() && !bare;
     if counted && first.unit.is_none() && (letter || !known) {
+        return None;
+    }
+    let years = counted && first.prefix.is_empty() && first.unit.or(stated).is_none() && min >= 1900.0 && max <= 2100.0;
+    let frequencies = is_one(&first.prefix.to_lowercase(), "f|freq|oae") && first.unit.is_none();
+    if years || frequencies {
         return None;
     }
     let from_start = first.wavelength <= 1.0 && values().zip(values().skip(1)).all(|(a, b)| b - a == 1.0);

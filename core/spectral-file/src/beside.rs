@@ -61,7 +61,11 @@ fn take_role(path: &str, stem: &[String], grid: &mut Grid) {
 fn take_clues(stem: &[String], folder: &[String], grid: &mut Grid) {
     let role = grid.beside.as_ref().map(|beside| beside.value);
     let title = stem.join(" ");
-    let says_absorbance = |words: &[String]| words.iter().any(|word| word.starts_with("absorban") || word == "od");
+    let says_absorbance = |words: &[String]| {
+        let joined = words.concat();
+        words.iter().any(|word| word.starts_with("absorban") || word == "od")
+            || DENSITIES.iter().any(|density| joined.contains(density))
+    };
     let is_absorbance =
         says_absorbance(stem) || says_absorbance(folder) && stem.iter().all(|word| role_of_word(word).is_none());
     let is_absorbance = is_absorbance && role == Some(Role::Transmittance);
@@ -97,7 +101,7 @@ fn take_axis(path: &str, stem: &[String], names: &[&str], grid: &mut Grid) {
         (header.x_unit, grid.label_unit) = (Some((line.unwrap_or(1), XUnit::Other)), None);
     }
     // `Au-Ovidio-eV`, `flux_angstroms`
-    let infrared = || (0..names.len().min(2)).any(|at| has(at, "mir|ftir|atr"));
+    let infrared = || (0..names.len().min(2)).any(|at| has(at, "mir|ftir|ftirs|atr"));
     let parts = || file_stem(path).into_iter().flat_map(|stem| stem.split(|c: char| !c.is_alphanumeric()));
     if grid.unit.is_none() && header.x_unit.is_none() && grid.label_unit.is_none() {
         let angstroms = stem.iter().any(|word| is_one(word, "angstrom|angstroms")).then_some(WavelengthUnit::Angstrom);
@@ -109,6 +113,9 @@ fn take_axis(path: &str, stem: &[String], names: &[&str], grid: &mut Grid) {
         grid.unit = unit.map(|unit| Decided::guess(unit, "The file is named so"));
     }
 }
+
+/// Names of densities, joined.
+const DENSITIES: [&str; 2] = ["dyedensity", "opticaldensity"];
 
 /// Names at the end of a path that are looked at.
 const LEVELS: usize = 5;
@@ -178,12 +185,17 @@ fn of_name(name: &str) -> Option<(Role, bool)> {
         "cie1931",
         "actionspectr",
         "stilesburch",
+        "cie31",
+        "ss2deg",
+        "ss10deg",
     ]
     .iter()
     .any(|observer| short.contains(observer));
     let told = told.or(is_observer.then_some(Role::Camera));
     let is_chart = ["colorchart", "colourchart", "colorchecker", "macbeth"].iter().any(|chart| short.contains(chart));
     let told = told.or(is_chart.then_some(Role::Reflectance));
+    let is_density = DENSITIES.iter().any(|density| short.contains(density));
+    let told = told.or(is_density.then_some(Role::Transmittance));
     let is_lamp = ["pressuresodium", "pressuremercury", "sodiumlamp"].iter().any(|lamp| short.contains(lamp));
     let told = told.or(is_lamp.then_some(Role::Illuminant));
     let mut roles = told.into_iter().chain(words.iter().filter_map(|word| role_of_word(word)));

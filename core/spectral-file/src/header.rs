@@ -150,6 +150,8 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
         }
         let line = body.map_or_else(|| whole(section, line, layout.dialect(), &mut lines), |_| line);
         if let Some((key, value)) = body.and_then(|body| body.split_once(':')) {
+            let names = || listed_names(key, value, layout);
+            named_above = named_above.or_else(|| Some((number, names()?)));
             header.take_comment(number, key.trim(), value.trim());
             continue;
         }
@@ -247,6 +249,13 @@ fn described_column(body: &str, next: usize) -> Option<String> {
     let (word, number) = key.trim().split_once(' ')?;
     let is_next = is_one(&lower(word), "column|col|col.|label") && number.trim().parse() == Ok(next);
     Some(name.trim()).filter(|name| is_next && !name.is_empty()).map(str::to_owned)
+}
+
+/// The names in a comment such as `columns: wavelength_Angstrom  flux (arbitrary)`, without a remark behind them.
+fn listed_names(key: &str, value: &str, layout: &Layout) -> Option<Vec<String>> {
+    let list = value.split(" (").next().filter(|_| is_one(&lower(key.trim()), "columns|fields"))?;
+    let words: Vec<String> = list.split([' ', ',', '\t']).filter(|word| !word.is_empty()).map(str::to_owned).collect();
+    (words.len() == layout.width && header_terms::names_axis(words.first()?)).then_some(words)
 }
 
 /// Unit and label of a column in a table of the bytes of each, as journals of astronomy have them: ` 1-  6 F6.1   0.1nm Wave   …`.

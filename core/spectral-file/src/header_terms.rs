@@ -140,6 +140,7 @@ pub(super) fn not_converted(text: &str) -> Option<&'static str> {
         () if begins(&text, "emissivit|thermal emission") => {
             Some("An emissivity is neither a reflectance nor a transmittance")
         }
+        () if word("fwhm|bandwidths") && has("wavelength") => Some("The widths of bands are no spectrum"),
         () if names_logarithm(&text) => Some("Logarithms are not converted: raise ten to their power first"),
         () => None,
     }
@@ -577,17 +578,18 @@ pub(super) fn names_time(text: &str) -> bool {
 
 /// Returns whether a column's header names a quantity over which no spectrum runs: a time, a temperature, an angle, a place.
 pub(super) fn names_other_axis(text: &str) -> bool {
-    const QUANTITIES: &str = "binding|t|pressure|distance|position|mass|height|weight|volume|concentration|concentracion|concentración|conc|time|seconds|minutes|hours|elapsed|temperature|temp|theta|2theta|angle|lon|longitude|lat|\
-        latitude|current|voltage|date|year|month|day|hour";
-    const UNITS: &str = "s|sec|ms|msec|min|h|k|°c|°|deg|degree|degrees|ma|mg/kg";
-    let text = lower(text);
-    let unit = || {
-        text.rsplit_once(['(', '[', ','])
-            .is_some_and(|(_, unit)| is_one(unit.trim_end_matches([')', ']']).trim(), UNITS))
-    };
-    let is_number = || is_one(&text, "nr|nr.|id") || text.ends_with("_id") || text.ends_with(" id");
-    !names_wavelengths(&text)
-        && (words(&text).next().is_some_and(|word| is_one(word, QUANTITIES)) || unit() || is_number())
+    const QUANTITIES: &str = "binding|t|age|pressure|distance|position|mass|height|weight|volume|concentration|concentracion|\
+        concentración|conc|time|seconds|minutes|hours|elapsed|temperature|temp|theta|2theta|angle|lon|longitude|lat|latitude|\
+        current|voltage|potential|date|year|month|day|hour|mean|median";
+    const UNITS: &str = "s|sec|ms|msec|min|h|k|°c|°|deg|degree|degrees|v|mv|ma|ml|bar|mg/kg";
+    let text = lower(text).replace('_', " ");
+    let (name, unit) = text.split_once(['(', '[', ',']).map_or((&*text, &*text), |(name, unit)| (name, unit));
+    let unit = unit.split([')', ']']).next().unwrap_or_default();
+    let is_quantity = |word: Option<&str>| word.is_some_and(|word| is_one(word, QUANTITIES));
+    let is_number =
+        || is_one(name.trim(), "nr|nr.|id|band|band number") || name.ends_with(" id") || name.ends_with(" index");
+    let named = || is_quantity(words(name).next()) || is_quantity(words(name).last());
+    !names_wavelengths(&text) && (named() || is_one(unit.trim(), UNITS) || is_number())
 }
 
 /// Index of the column header that names the wavelengths: those in nanometers before those in other units. A first one without a

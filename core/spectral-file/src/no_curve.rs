@@ -4,6 +4,7 @@
 use crate::decimal::extent;
 use crate::decision::{Decided, Decision, Values};
 use crate::grid::{Grid, RawCurve, retain};
+use crate::header_terms::Channel;
 use crate::options::ReadOptions;
 use crate::text::{begins, is_one, spaced};
 use crate::warning::{LineList, Sentinel, Warning};
@@ -72,8 +73,10 @@ const FEW: usize = 12;
 pub(super) fn warn_of_strangers(grid: &Grid, log: &mut Log<'_>) {
     warn_of_constants(grid, log);
     warn_of_integrals(grid, log);
-    let is_known = |curve: &RawCurve| is_index_part(&curve.name) || header_terms::channel(&curve.name).is_some();
-    if !is_own(grid) && (2..=FEW).contains(&grid.curves.len()) && !grid.curves.iter().any(is_known) {
+    let is_channel = |curve: &&RawCurve| matches!(header_terms::channel(&curve.name), Some(Channel::Letter(_)));
+    let are_channels = grid.curves.iter().filter(is_channel).count() >= 3;
+    let are_known = are_channels || grid.curves.iter().any(|curve| is_index_part(&curve.name));
+    if !is_own(grid) && (2..=FEW).contains(&grid.curves.len()) && !are_known {
         warn_of_other_sizes(grid, log);
         warn_of_steps(grid, log);
     }
@@ -81,7 +84,7 @@ pub(super) fn warn_of_strangers(grid: &Grid, log: &mut Log<'_>) {
 
 /// Returns whether a name is of one part of a refractive index: `n`, `glass_k`.
 fn is_index_part(name: &str) -> bool {
-    name.rsplit(['_', ' ']).next().is_some_and(|part| is_one(part, "n|k"))
+    name.rsplit(['_', ' ']).next().is_some_and(|part| is_one(part, "n|k|N|K"))
 }
 
 /// Warns of columns that hold one number only: zero, or any without a name.
@@ -103,7 +106,7 @@ fn warn_of_constants(grid: &Grid, log: &mut Log<'_>) {
 /// Warns of columns far smaller or larger than the others of a few.
 fn warn_of_other_sizes(grid: &Grid, log: &mut Log<'_>) {
     const RATIO: f64 = 100.0;
-    let size = |curve: &RawCurve| curve.values.iter().fold(0.0_f64, |size, value| size.max(value.abs()));
+    let size = |curve: &RawCurve| curve.values.iter().fold(0.0_f64, |size, value| size.max(*value));
     let mut sizes: Vec<(f64, &RawCurve)> = grid.curves.iter().map(|curve| (size(curve), curve)).collect();
     sizes.retain(|(size, _)| *size > 0.0);
     sizes.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -150,7 +153,8 @@ fn warn_of_steps(grid: &Grid, log: &mut Log<'_>) {
         // Counts of detectors are whole too, but hardly the same twice.
         let whole = || {
             let fractions = present().filter(|value| value.fract() != 0.0).count();
-            FEW_OF * fractions.max(levels.len()) < present().count().max(FEW_OF * FEWEST_VALUES)
+            let values = present().filter(|value| *value != 0.0).count();
+            FEW_OF * fractions.max(levels.len()) < values.max(FEW_OF * FEWEST_VALUES) && fractions == 0
         };
         let is_light = || curve.name == "E" || header_terms::names_illuminant(&curve.name);
         !is_constant && (levels.len() <= LEVELS || steady() || whole()) && !is_light()
@@ -191,7 +195,7 @@ fn is_companion(curve: &RawCurve, made: bool) -> bool {
         inside('(', ')') || inside('[', ']')
     });
     let bare = name.split(['(', '[']).next().unwrap_or_default().trim().replace('_', " ");
-    let angle = bare.rsplit(' ').next().is_some_and(|word| is_one(word, "azimuth|zenith|incidence"));
+    let angle = bare.rsplit(' ').next().is_some_and(|word| is_one(word, "azimuth|zenith|incidence|aoi"));
     let signal = made && bare.rsplit(' ').next().is_some_and(|word| is_one(word, SIGNALS));
     let width = bare.split(' ').any(|word| is_one(word, "wdth|width|halfwidth|binwidth"));
     let named = signal || angle || width || is_one(&bare, NAMES) || is_one(&name, NAMES);
@@ -247,6 +251,17 @@ pub(super) fn is_other_scale(wavelengths: &[f64], column: &[f64]) -> bool {
     let inverse = |product: f64| wavelengths.iter().zip(column).all(|(w, c)| (w * c / product - 1.0).abs() < CLOSE);
     PRODUCTS.iter().any(|product| UNITS.iter().any(|unit| inverse(product * unit)))
         || are_upper_ends(wavelengths, column)
+        || are_widths(wavelengths, column)
+}
+
+/// True for the widths of intervals, each as wide as the step to the next wavelength, where steps differ.
+fn are_widths(wavelengths: &[f64], column: &[f64]) -> bool {
+    const LEAST: f64 = 1.05;
+    const CLOSE: f64 = 0.02;
+    let steps = || wavelengths.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+    let (least, most) = extent(steps());
+    let fits = steps().zip(column).filter(|(step, width)| (*width / step - 1.0).abs() < CLOSE).count();
+    least > 0.0 && most > LEAST * least && 10 * fits > 9 * wavelengths.len()
 }
 
 /// True for the upper ends of intervals that begin at the wavelengths, one at the end of the other.

@@ -116,17 +116,20 @@ fn of_light(area: bool, steradian: bool) -> Quantity {
 
 /// Decision on responses per photon or per energy, as far as the file states it.
 fn response(grid: &Grid) -> Option<Decided<bool>> {
-    for curve in &grid.curves {
+    let of_curve = |curve: &RawCurve| {
         let unit = curve.unit.as_deref().unwrap_or_default();
+        let by_unit = || format!("The unit is {unit}");
         if is_per_photon(unit) || is_photons(unit) {
-            return Some(Decided::certain(true, format!("The unit is {unit}")));
+            Some((true, by_unit()))
+        } else if says_per_photon(&curve.label) {
+            Some((true, format!("A column is headed “{}”", excerpt(&curve.label))))
+        } else {
+            is_per_energy(unit).then(|| (false, by_unit()))
         }
-        if says_per_photon(&curve.label) {
-            return Some(Decided::certain(true, format!("A column is headed “{}”", excerpt(&curve.label))));
-        }
-        if is_per_energy(unit) {
-            return Some(Decided::certain(false, format!("The unit is {unit}")));
-        }
+    };
+    if let Some((photon, why)) = grid.curves.iter().find_map(of_curve) {
+        let all = grid.curves.iter().all(|curve| of_curve(curve).is_some_and(|(other, _)| other == photon));
+        return Some(if all { Decided::certain(photon, why) } else { Decided::guess(photon, why) });
     }
     let line = grid.header.per_photon.or(grid.header.photons)?;
     Some(Decided::certain(true, format!("Line {line} says so")))

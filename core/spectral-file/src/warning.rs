@@ -178,6 +178,8 @@ pub enum Warning {
     /// The columns of the upper and of the lower ends, from 1.
     #[error("Column {} holds the upper ends of intervals that begin at the wavelengths, in column {}: left out, so that each value stands at the lower end", .0[0], .0[1])]
     UpperEnds([usize; 2]),
+    #[error("line {0}: other wavelengths than those above: rows that belong to them stand at wrong ones")]
+    OtherHeader(usize),
     #[error("Rows of other quantities than “{taken}”: left out ({others}): choose the part to read them")]
     MoreQuantities { taken: String, others: String },
     #[error("line {line}: {named}: no wavelength there, so the column is left out")]
@@ -256,6 +258,7 @@ impl Warning {
             Self::Sorted(line)
             | Self::NumbersAbove(line)
             | Self::TextBelow(line)
+            | Self::OtherHeader(line)
             | Self::MoreTables(line)
             | Self::BrokenTable { line, .. }
             | Self::HeaderDiffers { line, .. }

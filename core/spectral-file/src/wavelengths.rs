@@ -140,7 +140,9 @@ fn no_other_axis(grid: &Grid) -> Result<(), ReadError> {
     let in_order = grid.wavelengths.len() >= FEWEST_IN_ORDER && grid.wavelengths.is_sorted_by(|a, b| a < b);
     let counted = names.len() >= MOST_COUNTED && !in_order && names.iter().enumerate().all(is_number);
     let named = names.first().is_some_and(|name| header_terms::names_other_axis(name) && !setting);
-    let other = named || tristimulus || bands || counted;
+    // Or its unit, where all heads are taken for units.
+    let unit = || grid.header.units.get(column).is_some_and(|unit| header_terms::names_other_axis(unit));
+    let other = named || tristimulus || bands || counted || names.is_empty() && unit();
     if other { Err(ReadError::NoWavelengths(grid.header.line.unwrap_or(1))) } else { Ok(()) }
 }
 
@@ -179,16 +181,17 @@ const ANGSTROMS: std::ops::RangeInclusive<f64> = 30.0..=250_000.0;
 const MOST_NM: f64 = 3000.0;
 const MOST_ANGSTROM: f64 = 1e9;
 
-/// Names the columns of a matrix by its first row, behind a zero in the corner: delays or wavelengths of excitation, in order.
-fn name_by_corner(grid: &mut Grid) {
+/// Names the columns of a matrix by its first row, behind a zero in the corner: delays or wavelengths of excitation, in order. Returns
+/// whether it has such names.
+fn name_by_corner(grid: &mut Grid) -> bool {
     const FEWEST: usize = 3;
     let heads: Vec<f64> = grid.curves.iter().map(|curve| curve.values[0]).collect();
     let in_order = heads.is_sorted_by(|a, b| a < b) || heads.is_sorted_by(|a, b| a > b);
-    if heads.len() >= FEWEST && in_order && grid.curves.iter().all(|curve| !curve.named) {
-        for (curve, head) in grid.curves.iter_mut().zip(heads) {
-            (curve.name, curve.named) = (head.to_string(), true);
-        }
+    let are_names = heads.len() >= FEWEST && in_order && grid.curves.iter().all(|curve| !curve.named);
+    for (curve, head) in grid.curves.iter_mut().zip(heads).filter(|_| are_names) {
+        (curve.name, curve.named) = (head.to_string(), true);
     }
+    are_names
 }
 
 /// Converts wavelengths to nanometers. Those beyond the range at one end of the table, where they go on in its order, are left out if
@@ -216,7 +219,8 @@ pub(super) fn to_nanometers(
     let ordered = nm.is_sorted_by(|a, b| a <= b) || nm.is_sorted_by(|a, b| a >= b);
     let (least, most) = extent(nm.iter().copied());
     // A single zero before the table, as of an empty row, is no wavelength.
-    let zero = nm[0] == 0.0 && count == 1 && FEW < nm.len();
+    let begins_axis = |nm: &[f64]| nm[1] - nm[0] == nm[2] - nm[1];
+    let zero = nm[0] == 0.0 && count == 1 && FEW < nm.len() && !begins_axis(nm);
     let guessed = (unit.value, unit.certainty) == (WavelengthUnit::Nanometer, Certainty::Guess);
     let far = matches!(unit.value, WavelengthUnit::Micrometer | WavelengthUnit::Electronvolt);
     let enough = within.len() >= count || far;
@@ -239,9 +243,7 @@ pub(super) fn to_nanometers(
     }
     // The energy zero has no wavelength.
     let (from_nm, to_nm) = extent(nm.iter().copied().filter(|nm| out(nm) && nm.is_finite()));
-    if zero && marked[0] {
-        name_by_corner(grid);
-    }
+    let named = zero && marked[0] && name_by_corner(grid);
     let mut lines = LineList::default();
     if grid.lines.len() == marked.len() {
         for at in (0..marked.len()).filter(|at| marked[*at]) {
@@ -250,7 +252,9 @@ pub(super) fn to_nanometers(
         }
     }
     grid.remove(&marked);
-    log.push(Warning::OutOfRange { count, from_nm, to_nm, lines });
+    if !named {
+        log.push(Warning::OutOfRange { count, from_nm, to_nm, lines });
+    }
     Ok(())
 }
 
@@ -258,6 +262,7 @@ pub(super) fn to_nanometers(
 /// wavelength, and numbers that go up and down where nothing says that they are wavelengths.
 pub(super) fn sort(grid: &mut Grid, unit: &Decided<WavelengthUnit>, log: &mut Log<'_>) -> Result<bool, ReadError> {
     const FEWEST_SETTINGS: usize = 4;
+    const FEWEST_MIXED: usize = 4;
     let wavelengths = &grid.wavelengths;
     let falls = wavelengths.windows(2).filter(|pair| pair[1] < pair[0]).count();
     let rises = wavelengths.windows(2).filter(|pair| pair[1] > pair[0]).count();
@@ -267,7 +272,7 @@ pub(super) fn sort(grid: &mut Grid, unit: &Decided<WavelengthUnit>, log: &mut Lo
         let wrong = |pair: &[f64]| if descending { pair[1] > pair[0] } else { pair[1] < pair[0] };
         let at = wavelengths.windows(2).position(wrong).unwrap_or(0);
         let unsaid = unit.certainty == Certainty::Guess && !is_named(grid) && 4 * rises.min(falls) > rises + falls;
-        mixed = (unsaid && rises + falls >= FEW).then(|| grid.line(at + 1));
+        mixed = (unsaid && rises + falls >= FEWEST_MIXED).then(|| grid.line(at + 1));
         log.push(Warning::Sorted(grid.line(at + 1)));
     }
     if falls > 0 {
@@ -287,7 +292,11 @@ pub(super) fn sort(grid: &mut Grid, unit: &Decided<WavelengthUnit>, log: &mut Lo
     if count >= FEWEST_SETTINGS && 2 * count > rows && !(from + 1..to).all(|row| grid.same_values(from, row)) {
         return Err(ReadError::OneWavelength { line: grid.line(from), nm, count, rows });
     }
-    merge_repeats(grid, log);
+    let (line, averaged) = (grid.line(0), merge_repeats(grid, log));
+    // So many values at one wavelength each are of other axes, such as places.
+    if unit.certainty == Certainty::Guess && !is_named(grid) && FEWEST_IN_ORDER < rows && 2 * averaged > rows {
+        return Err(ReadError::NoWavelengths(line));
+    }
     Ok(descending)
 }
 
@@ -337,8 +346,8 @@ pub(super) fn warn(grid: &Grid, step: Steps, unit: WavelengthUnit, log: &mut Log
     }
 }
 
-/// Leaves one of rows that are the same, and the mean of rows that differ at one wavelength.
-fn merge_repeats(grid: &mut Grid, log: &mut Log<'_>) {
+/// Leaves one of rows that are the same, and the mean of rows that differ at one wavelength; returns how many these were.
+fn merge_repeats(grid: &mut Grid, log: &mut Log<'_>) -> usize {
     let mut repeats = vec![false; grid.wavelengths.len()];
     let (mut same, mut averaged) = (Vec::new(), Vec::new());
     let mut start = 0;
@@ -362,6 +371,7 @@ fn merge_repeats(grid: &mut Grid, log: &mut Log<'_>) {
     if repeats.contains(&true) {
         grid.remove(&repeats);
     }
+    let count = averaged.len();
     for (mut lines, why) in [(same, Dropped::Repeated), (averaged, Dropped::Averaged)] {
         lines.sort_unstable();
         let list: LineList = lines.iter().copied().collect();
@@ -374,6 +384,7 @@ fn merge_repeats(grid: &mut Grid, log: &mut Log<'_>) {
             _ => log.push(Warning::RepeatedRows(list)),
         }
     }
+    count
 }
 
 /// Start of a second pass over the wavelengths of a first one, if rows do: that is another table, not disorder.

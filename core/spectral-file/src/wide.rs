@@ -233,7 +233,7 @@ impl<'a> Rows<'a> {
                 header.unit = unit.and_then(unit_text::unit_cell).or(header.unit.take());
             } else if !line.trim_ascii().is_empty() && line != header_line && is_row() && !is_types() {
                 match group.is_like(self.dialect, line) {
-                    true if self.curves.is_empty() => self.scales.push(format!("line {number}")),
+                    true if self.curves.is_empty() => log.push(Warning::OtherHeader(number)),
                     true => return Ok(Some(number)),
                     false => self.take(number, line)?,
                 }

@@ -107,11 +107,11 @@ fn optical_spectrum_analyzer() {
     let file = |unit: &str| {
         format!(
             "#Thorlabs FTS 1\n#[SpectrumHeader]\n#Date;20260522\n#XAxisUnit;nm_air\n#YAxisUnit;{unit}\n#[Data]\n\
-             9.997433472e+02;-6.0e+01\n1.000743347e+03;-5.0e+01\n#[EndOfFile]\n"
+             9.997433472e+02;6.0e+01\n1.000743347e+03;5.0e+01\n#[EndOfFile]\n"
         )
     };
     let table = ok(&file("intensity"));
-    assert_eq!(samples(&table, 0), [(999.743_347_2, -60.0), (1_000.743_347, -50.0)]);
+    assert_eq!(samples(&table, 0), [(999.743_347_2, 60.0), (1_000.743_347, 50.0)]);
     assert_eq!(table.reading.wavelength_unit.certainty, Certainty::Certain);
     assert!(note(&table, "Program").is_some_and(|program| program.contains("Thorlabs")));
     assert_eq!(table.role.value, Role::Illuminant);

@@ -61,7 +61,8 @@ pub(super) fn find(header: &Header, at: usize, wavelengths: &[f64], before: &[Ve
         let again = is_again(header.name(at), header.name(at + 1 + index)) || has_ends_of(wavelengths, &columns[index]);
         // Points read off a plot may go back a little.
         let (low, high) = extent(columns[index].iter().copied().filter(|value| !value.is_nan()));
-        if kinds[index] == Kind::Value && again && units::plausible(low, high, false) {
+        let alike = header.name(at).is_some() && header.name(at + 1 + index) == header.name(at);
+        if kinds[index] == Kind::Value && again && units::plausible(low, high, alike) {
             (kinds[index], axes.guessed) = (Kind::Wavelengths, true);
         }
     }

@@ -1,5 +1,6 @@
 //! Role of the curves: as stated in the file, as suggested by its settings, or by its numbers; the channels of a camera.
 
+use crate::decimal::extent;
 use crate::decision::{Certainty, Decided, Quantity, Role, Values, WavelengthUnit};
 use crate::grid::{Grid, RawCurve};
 use crate::header_terms::{self, Channel, XUnit};
@@ -11,6 +12,9 @@ use crate::{no_curve, quantity, unit_text};
 
 /// Counts of detectors are larger, irradiances and radiances in the usual units smaller.
 const COUNTS: f64 = 1000.0;
+
+/// Logarithms of relative values fall below it, noise does not.
+const LOGARITHM: f64 = -0.5;
 
 /// Role that words in the file state or mention, or that suits the scale that was chosen.
 pub(super) fn said(grid: &Grid, chosen: Option<Values>) -> Option<Decided<Role>> {
@@ -428,6 +432,16 @@ fn by_reference(grid: &Grid, evidence: &Evidence) -> Option<Decided<Role>> {
     let doubtful = clues.ratios_in_percent.is_some() && !looks(Looks::Percent);
     let why = format!("Line {line} says that there was a reference");
     (!doubtful).then(|| Decided::guess(Role::Reflectance, why))
+}
+
+/// The doubt whether values of a role are logarithms, as none is above zero. Losses in decibels are none either.
+pub(super) fn of_logarithms(grid: &Grid) -> Option<Decided<Role>> {
+    let decibels = |values: Option<Values>| values == Some(Values::Decibels);
+    let said = grid.header.values.map(|(_, values)| values);
+    let losses = || decibels(said) || grid.curves.iter().any(|curve| decibels(header_terms::values(&curve.label)));
+    let (low, high) = extent(grid.curves.iter().flat_map(|curve| curve.values.iter().copied()));
+    let why = "No value is above zero, as of logarithms: raise ten to their power first";
+    (high <= 0.0 && low < LOGARITHM && !losses()).then(|| Decided::open(Role::Unknown, why))
 }
 
 pub(super) const MOST_CHANNELS: usize = 4;

@@ -86,7 +86,7 @@ fn by_headers(grid: &Grid, role: Role, evidence: &Evidence) -> Option<(Decided<V
     let short = |curve: &RawCurve| {
         let label = curve.label.to_lowercase();
         let bare = label.split(['(', '[']).next().unwrap_or_default().trim().trim_end_matches('.');
-        label.starts_with("abs") && !label.contains("absorban") && !bare.ends_with("abs")
+        label.contains("abs") && !label.contains("absorban") && !bare.ends_with("abs")
     };
     let assumed = assumed || first == Values::Absorbance && grid.curves.iter().any(short);
     Some((if assumed { Decided::guess(first, why) } else { Decided::certain(first, why) }, columns))

@@ -18,14 +18,13 @@ use crate::watch::{Log, PlaceKind};
 use crate::{uncertainty_terms, units};
 
 /// Keys of names, the most telling first.
-const NAMES: &str =
-    "title|name|sample name|sample|label|camera name|camera|model|sample id|band id|id|channel|material|state";
+const NAMES: &str = "title|name|spd name|spectrum name|sample name|sample|label|camera name|camera|model|sample id|band id|id|channel|material|state";
 const QUANTITIES: &str = "measurement type|quantity|measurement|spectrum type|data type|type|kind|mode|y label";
 const UNITS: &str = "unit|units|y unit|y units|value unit|values unit|scale";
 /// Keys of objects whose texts are about the object around.
 const ABOUT: &str = "metadata|meta|header|info|attributes|properties|units|batch metadata";
 /// Keys that name values and nothing else.
-const VALUES: &str = "|values|value|data|spectrum|spectra|spectral data|spd|spds|samples|measurements|measurement|curve|curves|\
+const VALUES: &str = "|values|value|data|spectrum|spectra|spectral data|spd|spds|sd|samples|measurements|measurement|curve|curves|\
     entries|y|val|amplitude|response|results|items|power";
 /// Keys of wavelengths that are no words for them elsewhere.
 const AXES: &str = "wvl|wvls|wls|nm|grid nm|nm grid|wavelength grid|bands|ssf bands";
