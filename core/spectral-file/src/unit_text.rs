@@ -96,12 +96,9 @@ pub(super) fn unit_cell(cell: &str) -> Option<String> {
 const LONGEST_UNIT: usize = 40;
 
 fn is_unit(text: &str) -> bool {
-    // What it is equal to stands beside it.
-    if text.starts_with('=') {
-        return false;
-    }
     const WHOLE: &str = "a.u.|au|a. u.|arb. units|arb.u.|relative|rel.|fraction|dbm|db|dn|dl";
-    if text.is_empty() || text.chars().count() > LONGEST_UNIT {
+    // Behind a sign of equality stands another that it is equal to.
+    if text.is_empty() || text.starts_with('=') || text.chars().count() > LONGEST_UNIT {
         return false;
     }
     let lower = text.to_lowercase();
