@@ -233,11 +233,15 @@ const MOST_OVERLAPS: usize = 4;
 /// Returns whether wavelengths go back a little and on, as where the ranges of two detectors overlap.
 fn begins_next_detector(run: &[(usize, Band<'_>)], band: &Band<'_>, next: Option<&Band<'_>>) -> bool {
     const LEAST_TIMES: f64 = 10.0;
+    const MOST_STEPS: f64 = 5.0;
     let ([(_, first), .., (_, last)], Some(next)) = (run, next) else { return false };
     let (so_far, back) = (last.wavelength - first.wavelength, last.wavelength - band.wavelength);
-    // Nor is a number out of order among others that go on.
+    // A number out of order among others that go on is none.
     let (step, typical) = (next.wavelength - band.wavelength, so_far / (run.len() - 1) as f64);
-    let on = step > 0.0 && step < 2.0 * typical && next.goes_with(band);
+    let on = step > 0.0
+        && step < MOST_STEPS * typical
+        && next.wavelength - last.wavelength < typical
+        && next.goes_with(band);
     run.len() >= FEWEST_UNSAID && back * LEAST_TIMES < so_far && back > 0.0 && on
 }
 

@@ -140,7 +140,9 @@ pub(super) fn not_converted(text: &str) -> Option<&'static str> {
         () if begins(&text, "emissivit|thermal emission") => {
             Some("An emissivity is neither a reflectance nor a transmittance")
         }
-        () if word("fwhm|bandwidths") && has("wavelength") => Some("The widths of bands are no spectrum"),
+        () if word("fwhm|bandwidths") && has("wavelength") && !text.contains([',', ';', '\t']) => {
+            Some("The widths of bands are no spectrum")
+        }
         () if names_logarithm(&text) => Some("Logarithms are not converted: raise ten to their power first"),
         () => None,
     }
@@ -587,7 +589,7 @@ pub(super) fn names_other_axis(text: &str) -> bool {
     let unit = unit.split([')', ']']).next().unwrap_or_default();
     let is_quantity = |word: Option<&str>| word.is_some_and(|word| is_one(word, QUANTITIES));
     let is_number =
-        || is_one(name.trim(), "nr|nr.|id|band|band number") || name.ends_with(" id") || name.ends_with(" index");
+        || is_one(name.trim(), "nr|nr.|id|band number") || name.ends_with(" id") || name.ends_with(" index");
     let named = || is_quantity(words(name).next()) || is_quantity(words(name).last());
     !names_wavelengths(&text) && (named() || is_one(unit.trim(), UNITS) || is_number())
 }

@@ -179,7 +179,9 @@ fn is_own(grid: &Grid) -> bool {
 
 /// Returns whether there is nothing but what is recorded beside spectra.
 pub(super) fn is_only_beside(grid: &Grid) -> bool {
-    !is_own(grid) && !grid.curves.is_empty() && grid.curves.iter().all(|curve| is_companion(curve, false))
+    !is_own(grid)
+        && !grid.curves.is_empty()
+        && grid.curves.iter().all(|curve| curve.unit.is_none() && is_companion(curve, false))
 }
 
 /// `made` says that another column is what was made of signals.
