@@ -157,7 +157,7 @@ fn is_band_prefix(prefix: &str) -> bool {
 /// The groups of wavelengths in a header. A cell that is empty or out of order costs its column only.
 pub(super) fn groups(dialect: Dialect, line: &str) -> Vec<Group> {
     const APART: f64 = 3.0;
-    let (mut named, mut stated) = (false, None);
+    let (mut named, mut stated, mut of_all) = (false, None, None);
     let mut bands: Vec<(usize, Band<'_>)> = Vec::new();
     for (column, cell) in dialect.cells(line).take(MAX_CURVES + 2).enumerate() {
         let mut band = head(dialect, cell);
@@ -184,6 +184,14 @@ pub(super) fn groups(dialect: Dialect, line: &str) -> Vec<Group> {
     let (mut wrong, mut overlaps) = (0, 0);
     for (index, &(column, band)) in bands.iter().enumerate() {
         let next = bands.get(index + 1).map(|(_, next)| next);
+        // The first may have the unit of all: `380 [nm],385,390`.
+        if let [(_, first)] = &mut run[..]
+            && band.unit.is_none()
+            && (first.prefix, first.suffix) == (band.prefix, band.suffix)
+        {
+            of_all = first.unit.take();
+            stated = stated.or(of_all);
+        }
         let (begun, beside) =
             (run.first().map(|(_, first)| first.wavelength), run.last().is_some_and(|(last, _)| last + 1 == column));
         match step(&run, &band, next) {
@@ -218,6 +226,9 @@ pub(super) fn groups(dialect: Dialect, line: &str) -> Vec<Group> {
         }
     }
     all.extend(group(&run, wrong, stated));
+    if let ([only], Some(unit)) = (&mut all[..], of_all) {
+        only.unit = only.unit.or(Some(unit));
+    }
     // A table that names the column of its wavelengths has them there.
     // R puts an X before numbers.
     let bare = |group: &Group| group.suffix.is_empty() && matches!(group.prefix.as_str(), "" | "X");

@@ -74,7 +74,7 @@ fn take_clues(stem: &[String], folder: &[String], grid: &mut Grid) {
     clues.absorbance = clues.absorbance.or(is_absorbance.then_some(0));
     clues.other = clues.other.or(other.map(|why| (0, why)));
     clues.uncertainties = clues.uncertainties.or(uncertainty_terms::is_title(&title).then_some(0));
-    clues.quantum = stem.iter().any(|word| is_one(word, "qe|eqe|quantum"));
+    clues.quantum = role == Some(Role::Camera) && stem.iter().any(|word| is_one(word, "qe|eqe|quantum"));
 }
 
 /// Takes what the names of the file and of its folders, the nearest first, say of the axis.
@@ -161,9 +161,11 @@ fn of_name(name: &str) -> Option<(Role, bool)> {
         return Some((Role::Unknown, true));
     }
     let mut words = words(name);
-    // The pigment is no lamp.
-    if let Some(at) = words.windows(2).position(|pair| pair == ["lamp", "black"]) {
-        words.remove(at);
+    // The pigment is no lamp, and the dots have no efficiency.
+    for pair in [["lamp", "black"], ["quantum", "dot"], ["quantum", "dots"]] {
+        if let Some(at) = words.windows(2).position(|words| words == pair) {
+            words.remove(at);
+        }
     }
     let joined = |name: &str| name.to_lowercase().replace(['_', '-', '.', ' '], "");
     let short = joined(name);

@@ -12,7 +12,7 @@ use crate::no_curve::{FEWEST_ROWS, is_empty};
 use crate::text::{Lines, Section, comment, excerpt, has_word, is_one, lower};
 use crate::warning::{LineList, Warning};
 use crate::watch::Log;
-use crate::{header_terms, no_curve, unit_text, wavelengths};
+use crate::{header_terms, unit_text, wavelengths};
 
 pub(super) struct Read {
     pub(super) grid: Grid,
@@ -355,11 +355,7 @@ impl Columns {
         {
             return Err(ReadError::NotWavelengthColumn { column, columns });
         }
-        // Several names too many for all rows: nothing says which column has which.
-        let surplus = header.names.iter().skip(self.most_cells.max(self.width));
-        // Nor do settings behind the names, `Bias (V):,0.5`.
-        let is_setting = |name: &str| name.ends_with(':') || name.parse::<f64>().is_ok();
-        let surplus = surplus.filter(|name| !(is_one(&name.to_lowercase(), NOTES) || is_setting(name))).count() > 1;
+        let surplus = has_surplus(&header, self.most_cells.max(self.width));
         let at = self.named.filter(|&at| at < columns && !surplus);
         let bare = header.names.is_empty() && header.units.is_empty() && !layout.every_column;
         let at = at.or_else(|| axes::after_count(&self.cells).filter(|_| bare));
@@ -376,11 +372,7 @@ impl Columns {
             log.push(Warning::TextColumns { count: 1, column: column + 1, name });
         } else {
             let filled = self.cells.iter().rposition(|column| !is_empty(column)).map_or(0, |last| last + 1);
-            if surplus || header.names.len() + FEW_UNNAMED < filled && header.names.len() > 1 {
-                log.push(Warning::NamesDiffer { names: header.names.len(), columns: filled });
-            } else {
-                warn_of_names_without_columns(&header, columns, log);
-            }
+            warn_of_names(&header, [filled, columns], surplus, log);
             if surplus {
                 header.names.truncate(at + 1);
                 header.units.truncate(at + 1);
@@ -410,18 +402,7 @@ impl Columns {
         if skipped.iter().any(|(_, column)| !is_empty(column)) {
             log.push(Warning::SkippedColumns(at + 1));
         }
-        let is_end = |column: &&usize| {
-            let values = column.checked_sub(at + 1).and_then(|index| values.get(index));
-            values.is_some_and(|values| no_curve::are_upper_ends(&wavelengths, values))
-        };
-        let (ends, others): (Vec<usize>, Vec<usize>) = axes.left.iter().partition(is_end);
-        if let Some(end) = ends.first() {
-            log.push(Warning::UpperEnds([end + 1, at + 1]));
-        }
-        if !others.is_empty() {
-            let named = axes::column_list(&header, &others);
-            log.push(Warning::OtherAxes { named, wavelength_column: Some(at + 1) });
-        }
+        axes.warn(&header, at, &wavelengths, &values, log);
         if let Some(&first) = texts.first() {
             let name = header.name(first).unwrap_or_default().to_owned();
             log.push(Warning::TextColumns { count: texts.len(), column: first + 1, name });
@@ -458,11 +439,24 @@ fn raw_curve(header: &Header, column: usize, only: bool, values: Vec<f64>) -> Ra
     RawCurve { name, named, column: Some(column + 1), origin: column, label, unit, values, ..RawCurve::default() }
 }
 
-/// Columns behind the last name that are no doubt of the names before it.
-const FEW_UNNAMED: usize = 1;
+/// Returns whether names are several too many for all rows: nothing says which column has which. Notes stand behind them, and
+/// settings, `Bias (V):,0.5`.
+fn has_surplus(header: &Header, width: usize) -> bool {
+    let is_setting = |name: &str| name.ends_with(':') || name.parse::<f64>().is_ok();
+    let surplus = header.names.iter().skip(width);
+    surplus.filter(|name| !(is_one(&name.to_lowercase(), NOTES) || is_setting(name))).count() > 1
+}
 
-/// A named column that is empty in every row is no column of the rows, but its absence is reported.
-fn warn_of_names_without_columns(header: &Header, width: usize, log: &mut Log<'_>) {
+/// Warns where names are not one for each column: of too many, which are not used if they are a surplus, or of too few for the columns
+/// up to the last that is filled.
+fn warn_of_names(header: &Header, [filled, width]: [usize; 2], surplus: bool, log: &mut Log<'_>) {
+    /// Columns behind the last name that are no doubt of the names before it.
+    const FEW_UNNAMED: usize = 1;
+    let count = header.names.len();
+    if surplus || count > 1 && count + FEW_UNNAMED < filled {
+        return log.push(Warning::NamesDiffer { names: count, columns: filled });
+    }
+    // A named column that is empty in every row is no column of the rows, but its absence is reported.
     let mut names = header.names.iter().enumerate().skip(width).filter(|(_, name)| !name.is_empty());
     if let Some((column, first)) = names.next() {
         let first = format!("“{first}” (column {})", column + 1);

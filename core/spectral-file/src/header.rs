@@ -1,5 +1,6 @@
 //! Header above the numbers: comments, names of columns, units.
 
+mod legend;
 mod names;
 
 use std::collections::BTreeSet;
@@ -118,15 +119,15 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
             continue;
         }
         if let Some((key, value)) = braced(line) {
-            if key == "Units, Wavelength Units" && layout.width == GLAZING.len() {
-                named_above = Some((number, GLAZING.map(str::to_owned).to_vec()));
+            if key == "Units, Wavelength Units" && layout.width == legend::GLAZING.len() {
+                named_above = Some((number, legend::GLAZING.map(str::to_owned).to_vec()));
             }
             header.take_comment(number, key, value);
             continue;
         }
         header.take_name_row(line, layout);
         let (line, body) = (unmarked(line), comment(line));
-        if let Some((name, unit)) = body.and_then(ecsv_column) {
+        if let Some((name, unit)) = body.and_then(legend::ecsv_column) {
             header.named_units.push((number, name.to_owned(), unit.to_owned()));
             continue;
         }
@@ -134,12 +135,15 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
         let united = |names: &str| names.ends_with([')', ']']);
         let text = body.unwrap_or(line);
         header.take_of_program(number, text, &near);
-        named_above = named_above.or_else(|| Some((number, header.names_of_program(number, text, layout)?)));
+        if let Some((unit, names)) = legend::names_of_program(text, layout).filter(|_| named_above.is_none()) {
+            header.x_unit = unit.map(|unit| (number, unit)).or(header.x_unit);
+            named_above = Some((number, names));
+        }
         if named_above.is_none() && (layout.width > 2 || united(text)) {
             let names = names::split_otherwise(layout, text).filter(|names| layout.width > 2 || united(&names[0]));
             named_above = names.map(|names| (number, names));
         }
-        if let Some(name) = described_column(text, described.len() + 1) {
+        if let Some(name) = legend::described_column(text, described.len() + 1) {
             described.push(name.replace('\t', " "));
             if described.len() == layout.width {
                 named_above = named_above.or_else(|| Some((number, described.clone())));
@@ -150,7 +154,7 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
         }
         let line = body.map_or_else(|| whole(section, line, layout.dialect(), &mut lines), |_| line);
         if let Some((key, value)) = body.and_then(|body| body.split_once(':')) {
-            let names = || listed_names(key, value, layout);
+            let names = || legend::listed_names(key, value, layout);
             named_above = named_above.or_else(|| Some((number, names()?)));
             header.take_comment(number, key.trim(), value.trim());
             continue;
@@ -173,22 +177,15 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
             header.take_unit_cell(line, &names, layout);
             (header.line, header.names) = (Some(line), names);
         }
-        header.settle_names();
-        // UV WinLab writes `A` where others write `Abs`.
-        if let [axis, values] = &header.names[..]
-            && axis == "nm"
-            && values == "A"
-        {
-            header.clues.absorbance = header.clues.absorbance.or(header.line);
-        }
-        header.settle_units(layout);
-        if let Some((line, XUnit::Wavelength(WavelengthUnit::Wavenumber))) = header.x_unit.filter(|_| header.raman) {
-            header.x_unit = Some((line, XUnit::Other));
-        }
+        header.settle(layout);
         heads::take(&mut header);
     }
     header
 }
+
+/// Keys of comments on the columns, or on wavelengths among them.
+const ABOUT_COLUMNS: &str = "columns|column|fields|starting wavelength|start wavelength|first wavelength|mean wavelength|\
+    central wavelength|effective wavelength|pivot wavelength";
 
 /// The name of the sample that a setting gives: `Sample name: leaf 3`, `TITLE<tab>leaf 3`.
 fn stated_name(line: &str) -> Option<&str> {
@@ -199,11 +196,6 @@ fn stated_name(line: &str) -> Option<&str> {
     let is_key = is_one(&lower(bare_title(key)), KEYS);
     (is_key && is_name && value.len() <= 100 && !header_terms::is_quantity(value)).then_some(value)
 }
-
-const SPEXTOOL: [&str; 4] = ["Wavelength", "flux", "error", "flag"];
-
-/// Columns of the International Glazing Database: transmittance, and reflectances of the front and of the back.
-const GLAZING: [&str; 4] = ["Wavelength", "T", "Rf", "Rb"];
 
 /// Key and value of a line as that database writes them: `{ Thickness } 3.048`, `{ Type: Monolithic }`.
 fn braced(line: &str) -> Option<(&str, &str)> {
@@ -237,63 +229,6 @@ fn first_unit(body: &str) -> Option<WavelengthUnit> {
     WavelengthUnit::from_symbol(unit.trim()).filter(|_| rest.trim_start().starts_with('['))
 }
 
-/// The name of the next column in a comment, by its number, or alone: `Column 1: wavelength nm`, `Column 2 = flux`, `Column flux`.
-fn described_column(body: &str, next: usize) -> Option<String> {
-    if let Some(name) = byte_by_byte(body) {
-        return Some(name);
-    }
-    let Some((key, name)) = body.split_once([':', '=']) else {
-        let name = body.strip_prefix("Column ").map(str::trim);
-        return name.filter(|name| name.chars().all(char::is_alphabetic)).map(str::to_owned);
-    };
-    let (word, number) = key.trim().split_once(' ')?;
-    let is_next = is_one(&lower(word), "column|col|col.|label") && number.trim().parse() == Ok(next);
-    Some(name.trim()).filter(|name| is_next && !name.is_empty()).map(str::to_owned)
-}
-
-/// The names in a comment such as `columns: wavelength_Angstrom  flux (arbitrary)`, without a remark behind them.
-fn listed_names(key: &str, value: &str, layout: &Layout) -> Option<Vec<String>> {
-    let list = value.split(" (").next().filter(|_| is_one(&lower(key.trim()), "columns|fields"))?;
-    let words: Vec<String> = list.split([' ', ',', '\t']).filter(|word| !word.is_empty()).map(str::to_owned).collect();
-    (words.len() == layout.width && header_terms::names_axis(words.first()?)).then_some(words)
-}
-
-/// Unit and label of a column in a table of the bytes of each, as journals of astronomy have them: ` 1-  6 F6.1   0.1nm Wave   …`.
-fn byte_by_byte(body: &str) -> Option<String> {
-    let (from, rest) = body.trim_start().split_once('-').unwrap_or(("1", body));
-    let mut words = rest.split_whitespace();
-    let (to, format, unit, label) = (words.next()?, words.next()?, words.next()?, words.next()?);
-    let is_number = |text: &str| text.trim().parse::<u16>().is_ok();
-    let is_format = format.strip_prefix(['F', 'I', 'E', 'A']).is_some_and(|size| size.parse::<f32>().is_ok());
-    let unit = if unit == "0.1nm" { "Angstrom" } else { unit };
-    let named = if unit.starts_with("--") { label.to_owned() } else { format!("{label} [{unit}]") };
-    (is_number(from) && is_number(to) && is_format).then_some(named)
-}
-
-/// The names of columns as files of the ARIA database give them: `FORMAT = Wavn n k`, wave numbers or wavelengths in micrometers.
-fn aria_columns(body: &str) -> Option<(XUnit, Vec<String>)> {
-    let list = body.strip_prefix("FORMAT")?.trim_start().strip_prefix('=')?;
-    let names: Vec<String> = list.split_whitespace().map(str::to_owned).collect();
-    let unit = match &*lower(names.first()?) {
-        "wavn" => WavelengthUnit::Wavenumber,
-        "wavl" => WavelengthUnit::Micrometer,
-        _ => return None,
-    };
-    Some((XUnit::Wavelength(unit), names))
-}
-
-/// Name and unit of a column in the head of an ECSV: `- {name: flux, unit: W / m2, datatype: float64}`.
-fn ecsv_column(body: &str) -> Option<(&str, &str)> {
-    let (name, rest) = body.strip_prefix("- {name: ")?.split_once(", unit: ")?;
-    Some((name, rest[..rest.find([',', '}'])?].trim()))
-}
-
-/// The columns below the settings of a Woollam ellipsometer, of angles and of reflectances or transmittances.
-const WOOLLAM: [(&str, &[&str]); 2] = [
-    ("VASEmethod[", &["Wavelength", "Angle of incidence", "Psi", "Delta", "SD of Psi", "SD of Delta"]),
-    ("RTmethod[", &["Type", "Wavelength", "Angle of incidence", "Ratio", "SD of Ratio"]),
-];
-
 /// A line of names without the sign of a comment that no blank follows: `%Wavelength, leaf`.
 fn unmarked(line: &str) -> &str {
     let names = line.trim_start().strip_prefix('%').filter(|names| names.to_lowercase().starts_with("wavelength"));
@@ -318,23 +253,6 @@ impl Header {
         if text.contains("rruff.info") {
             self.x_unit = Some((number, XUnit::Other));
         }
-    }
-
-    /// Names of the columns as only some programs and databases give them.
-    fn names_of_program(&mut self, number: usize, text: &str, layout: &Layout) -> Option<Vec<String>> {
-        // Spextool's spectra of NASA's Infrared Telescope Facility name no columns.
-        if text.contains("Xspextool") && (3..=SPEXTOOL.len()).contains(&layout.width) {
-            return Some(SPEXTOOL[..layout.width].iter().map(|&name| name.to_owned()).collect());
-        }
-        // Woollam's ellipsometers: each row of what they measured is at an angle, with its errors.
-        for (method, names) in WOOLLAM {
-            if text.starts_with(method) && names.len() == layout.width {
-                return Some(names.iter().map(|&name| name.to_owned()).collect());
-            }
-        }
-        let (unit, names) = aria_columns(text).filter(|(_, names)| names.len() == layout.width)?;
-        self.x_unit = Some((number, unit));
-        Some(names)
     }
 
     pub(super) fn take_comment(&mut self, line: usize, key: &str, value: &str) {
@@ -369,8 +287,7 @@ impl Header {
         }
         // `wavelength_unit`, `x unit` and the like; a plain `unit` is that of the values.
         let about_x = header_terms::x_unit_in_prose(&format!("{lower} {value}"));
-        let about_columns =
-            is_one(&lower, "columns|column|fields|starting wavelength|start wavelength|first wavelength");
+        let about_columns = is_one(unit_text::bare(&lower), ABOUT_COLUMNS);
         if let Some(unit) = about_x.filter(|_| lower.starts_with(['w', 'x']) || about_columns) {
             self.x_unit = Some((line, unit));
         } else if let Some(name) = lower.strip_suffix(" unit").or_else(|| lower.strip_suffix(" units")) {
@@ -387,6 +304,22 @@ impl Header {
         let mut cells = layout.dialect().cells(line);
         if layout.width > 2 && cells.next().is_some_and(|key| is_one(&lower(key), "name|names|sample name|channel")) {
             self.samples = std::iter::once(String::new()).chain(cells.map(str::to_owned)).collect();
+        }
+    }
+
+    /// Settles names, units and what they say of the values.
+    fn settle(&mut self, layout: &Layout) {
+        self.settle_names();
+        // UV WinLab writes `A` where others write `Abs`.
+        if let [axis, values] = &self.names[..]
+            && axis == "nm"
+            && values == "A"
+        {
+            self.clues.absorbance = self.clues.absorbance.or(self.line);
+        }
+        self.settle_units(layout);
+        if let Some((line, XUnit::Wavelength(WavelengthUnit::Wavenumber))) = self.x_unit.filter(|_| self.raman) {
+            self.x_unit = Some((line, XUnit::Other));
         }
     }
 

@@ -424,7 +424,7 @@ const SIZES: &str = "size|diameter|radius|thickness|distance";
 pub(super) fn x_unit(text: &str) -> Option<XUnit> {
     const SHIFTS: &str = "raman shift|raman-shift|ramanshift|rel. 1/cm|rel. cm|relative wavenumber|relative wave number|shift (cm|\
         shift [cm|shift/cm";
-    const ENERGIES: &str = "ev|energy|energies|photon|e|h|hv|hν|hω|ħω|hbar|omega|ω|ν|wavelength|x";
+    const ENERGIES: &str = "ev|freq|frequency|energy|energies|photon|e|h|hv|hν|hω|ħω|hbar|omega|ω|ν|wavelength|x";
     let text = bracketed(lower(text)).replace('⁻', "-").replace('¹', "1");
     if let Some(unit) = bracketed_letter(&text) {
         return Some(unit);
@@ -576,22 +576,6 @@ pub(super) fn names_time(text: &str) -> bool {
         "s|sec|seconds|ms|us|µs|min|h|hours|utc|local|stamp|integration|exposure|acquisition|elapsed|measurement";
     let text = lower(text);
     has_word(&text, TIMES) && words(&text).all(|word| is_one(word, TIMES) || is_one(word, BESIDE))
-}
-
-/// Returns whether a column's header names a quantity over which no spectrum runs: a time, a temperature, an angle, a place.
-pub(super) fn names_other_axis(text: &str) -> bool {
-    const QUANTITIES: &str = "binding|t|age|pressure|distance|position|mass|height|weight|volume|concentration|concentracion|\
-        concentración|conc|time|seconds|minutes|hours|elapsed|temperature|temp|theta|2theta|angle|lon|longitude|lat|latitude|\
-        current|voltage|potential|date|year|month|day|hour|mean|median";
-    const UNITS: &str = "s|sec|ms|msec|min|h|k|°c|°|deg|degree|degrees|v|mv|ma|ml|bar|mg/kg";
-    let text = lower(text).replace('_', " ");
-    let (name, unit) = text.split_once(['(', '[', ',']).map_or((&*text, &*text), |(name, unit)| (name, unit));
-    let unit = unit.split([')', ']']).next().unwrap_or_default();
-    let is_quantity = |word: Option<&str>| word.is_some_and(|word| is_one(word, QUANTITIES));
-    let is_number =
-        || is_one(name.trim(), "nr|nr.|id|band number") || name.ends_with(" id") || name.ends_with(" index");
-    let named = || is_quantity(words(name).next()) || is_quantity(words(name).last());
-    !names_wavelengths(&text) && (named() || is_one(unit.trim(), UNITS) || is_number())
 }
 
 /// Index of the column header that names the wavelengths: those in nanometers before those in other units. A first one without a

@@ -425,6 +425,7 @@ fn repeats_minus_one(values: &[f64]) -> bool {
     others.is_empty() && marks.len() >= FEWEST && marks.len() * 2 < values.len()
 }
 
+/// Makes gaps of numbers that stand for missing values, before rows of one wavelength are averaged.
 pub(super) fn take_sentinels(grid: &mut Grid, log: &mut Log<'_>) {
     if is_own(grid) {
         return;

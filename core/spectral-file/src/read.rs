@@ -167,7 +167,6 @@ fn finish(
     wavelengths::to_nanometers(&mut grid, &wavelength_unit, &mut warnings)?;
     warn_of_unit(&wavelength_unit, &mut warnings);
     warnings.look(usize::MAX)?;
-    // Before rows of one wavelength are averaged.
     no_curve::take_sentinels(&mut grid, &mut warnings);
     let descending = wavelengths::sort(&mut grid, &wavelength_unit, &mut warnings)?;
     let (range_nm, step_nm) = (grid.range_nm(), Steps::of(&grid.wavelengths));

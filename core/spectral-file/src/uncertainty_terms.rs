@@ -204,7 +204,7 @@ pub(super) fn is_statistic(name: &str) -> bool {
 /// Returns whether a name has a word that other names hardly have, unlike the `SE` of a direction, the Sigma of cameras and the `Std` of
 /// a standard solution.
 pub(super) fn has_usual_word(name: &str) -> bool {
-    const WORDS: &str = "stdev|stddev|err|error|errors|unc|uncertainty|rms|noise";
+    const WORDS: &str = "stdev|stddev|err|error|errors|unc|uncertainty|rms|rmse|noise|residual|residuals|chi2";
     let key = key(name);
     key.split(' ').any(|word| is_one(word, WORDS))
         || key.split(' ').next_back().is_some_and(|word| is_one(word, "std|sd|sem"))

@@ -71,6 +71,11 @@ pub(super) fn without_unit(name: &str) -> &str {
         .unwrap_or(name)
 }
 
+/// A text up to its first bracket.
+pub(super) fn bare(text: &str) -> &str {
+    text.split(['(', '[']).next().unwrap_or_default().trim()
+}
+
 fn last_bracket(text: &str, open: char, close: char) -> Option<&str> {
     let end = text.rfind(close)?;
     let mut depth = 1;

@@ -8,7 +8,7 @@ use crate::header_terms::{self, XUnit};
 use crate::no_curve::FEWEST_ROWS;
 use crate::options::ReadOptions;
 use crate::report::Steps;
-use crate::text::is_one;
+use crate::text::{is_one, lower, words};
 use crate::units::{RANGE_NM, plausible};
 use crate::warning::{LineList, Warning};
 use crate::watch::Log;
@@ -139,15 +139,31 @@ fn no_other_axis(grid: &Grid) -> Result<(), ReadError> {
     // In order, the first numbers are wavelengths all the same.
     let in_order = grid.wavelengths.len() >= FEWEST_IN_ORDER && grid.wavelengths.is_sorted_by(|a, b| a < b);
     let counted = names.len() >= MOST_COUNTED && !in_order && names.iter().enumerate().all(is_number);
-    let named = names.first().is_some_and(|name| header_terms::names_other_axis(name) && !setting);
+    let named = names.first().is_some_and(|name| names_other_axis(name) && !setting);
     // Or its unit, where all heads are taken for units.
-    let unit = || grid.header.units.get(column).is_some_and(|unit| header_terms::names_other_axis(unit));
+    let unit = || grid.header.units.get(column).is_some_and(|unit| names_other_axis(unit));
     let other = named || tristimulus || bands || counted || names.is_empty() && unit();
     if other { Err(ReadError::NoWavelengths(grid.header.line.unwrap_or(1))) } else { Ok(()) }
 }
 
 fn axis_name(grid: &Grid) -> Option<&str> {
     grid.header.name(grid.wavelength_column.unwrap_or(1).saturating_sub(1))
+}
+
+/// Returns whether a column's header names a quantity over which no spectrum runs: a time, a temperature, an angle, a place.
+pub(super) fn names_other_axis(text: &str) -> bool {
+    const QUANTITIES: &str = "binding|t|age|pressure|distance|position|mass|height|weight|volume|concentration|concentracion|\
+        concentración|conc|time|seconds|minutes|hours|elapsed|temperature|temp|theta|2theta|angle|lon|longitude|lat|latitude|\
+        current|voltage|potential|date|year|month|day|hour|mean|median";
+    const UNITS: &str = "s|sec|ms|msec|min|h|k|°c|°|deg|degree|degrees|v|mv|ma|ml|bar|mg/kg";
+    let text = lower(text).replace('_', " ");
+    let (name, unit) = text.split_once(['(', '[', ',']).map_or((&*text, &*text), |(name, unit)| (name, unit));
+    let unit = unit.split([')', ']']).next().unwrap_or_default();
+    let is_quantity = |word: Option<&str>| word.is_some_and(|word| is_one(word, QUANTITIES));
+    let is_number =
+        || is_one(name.trim(), "nr|nr.|id|band number") || name.ends_with(" id") || name.ends_with(" index");
+    let named = || is_quantity(words(name).next()) || is_quantity(words(name).last());
+    !header_terms::names_wavelengths(&text) && (named() || is_one(unit.trim(), UNITS) || is_number())
 }
 
 /// Returns whether the column of the wavelengths is named so, without a unit.
@@ -217,16 +233,16 @@ pub(super) fn to_nanometers(
     let within = marked.iter().position(|out| !out).unwrap_or(0);
     let within = within..within + nm.len() - count;
     let ordered = nm.is_sorted_by(|a, b| a <= b) || nm.is_sorted_by(|a, b| a >= b);
-    let (least, most) = extent(nm.iter().copied());
     // A single zero before the table, as of an empty row, is no wavelength.
     let begins_axis = |nm: &[f64]| nm[1] - nm[0] == nm[2] - nm[1];
-    let zero = nm[0] == 0.0 && count == 1 && FEW < nm.len() && !begins_axis(nm);
+    let zero = nm[0] == 0.0 && FEW < nm.len() && !begins_axis(nm);
+    let (least, most) = extent(nm[usize::from(zero)..].iter().copied());
     let guessed = (unit.value, unit.certainty) == (WavelengthUnit::Nanometer, Certainty::Guess);
     let far = matches!(unit.value, WavelengthUnit::Micrometer | WavelengthUnit::Electronvolt);
     let enough = within.len() >= count || far;
-    let sound = ordered && within.len() > 1 && enough && (least > 0.0 || zero);
+    let sound = ordered && within.len() > 1 && enough && least > 0.0;
     // From light that is seen on, a last few in the far infrared do not make it another unit.
-    let few = zero || (RANGE_NM.start()..&VISIBLE_TO_NM).contains(&&nm[0]) && FEW * count <= nm.len();
+    let few = zero && count == 1 || (RANGE_NM.start()..&VISIBLE_TO_NM).contains(&&nm[0]) && FEW * count <= nm.len();
     let error = match error {
         ReadError::WavelengthOutOfRange { .. }
             if guessed && ANGSTROMS.contains(&least) && (MOST_NM..=MOST_ANGSTROM).contains(&most) =>
@@ -243,7 +259,7 @@ pub(super) fn to_nanometers(
     }
     // The energy zero has no wavelength.
     let (from_nm, to_nm) = extent(nm.iter().copied().filter(|nm| out(nm) && nm.is_finite()));
-    let named = zero && marked[0] && name_by_corner(grid);
+    let named = zero && count == 1 && name_by_corner(grid);
     let mut lines = LineList::default();
     if grid.lines.len() == marked.len() {
         for at in (0..marked.len()).filter(|at| marked[*at]) {

@@ -10,10 +10,11 @@ use crate::grid::Grid;
 use crate::header::Header;
 use crate::header_terms::{self, XUnit};
 use crate::no_curve::{
-    FEWEST_ROWS, counts, counts_from_start, is_empty, is_other_scale, runs_one_way, tells_rows_apart,
+    FEWEST_ROWS, are_upper_ends, counts, counts_from_start, is_empty, is_other_scale, runs_one_way, tells_rows_apart,
 };
 use crate::text::listed;
 use crate::units;
+use crate::warning::Warning;
 use crate::watch::{Log, PlaceId};
 
 /// The fewest rows that a column counts whose name says nothing of it.
@@ -26,6 +27,31 @@ pub(super) struct Axes {
     pub(super) left: Vec<usize>,
     /// True if only the numbers suggest that there are several columns of wavelengths.
     pub(super) guessed: bool,
+}
+
+impl Axes {
+    /// Warns of the columns that are left out: upper ends of intervals, and other scales.
+    pub(super) fn warn(
+        &self,
+        header: &Header,
+        at: usize,
+        wavelengths: &[f64],
+        columns: &[Vec<f64>],
+        log: &mut Log<'_>,
+    ) {
+        let is_end = |column: &&usize| {
+            let values = column.checked_sub(at + 1).and_then(|index| columns.get(index));
+            values.is_some_and(|values| are_upper_ends(wavelengths, values))
+        };
+        let (ends, others): (Vec<usize>, Vec<usize>) = self.left.iter().partition(is_end);
+        if let Some(end) = ends.first() {
+            log.push(Warning::UpperEnds([end + 1, at + 1]));
+        }
+        if !others.is_empty() {
+            let named = column_list(header, &others);
+            log.push(Warning::OtherAxes { named, wavelength_column: Some(at + 1) });
+        }
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -110,7 +136,7 @@ fn has_ends_of(wavelengths: &[f64], column: &[f64]) -> bool {
     column.len() >= FEWEST_COUNTED && MOST_BACK * back < column.len()
 }
 
-pub(super) fn column_list(header: &Header, columns: &[usize]) -> String {
+fn column_list(header: &Header, columns: &[usize]) -> String {
     let name = |column: &usize| match header.name(*column) {
         Some(name) => format!("column {} (“{name}”)", column + 1),
         None => format!("column {}", column + 1),

@@ -8,7 +8,7 @@ use crate::dialect::{Cell, Dialect};
 use crate::dialect_trial::Layout;
 use crate::header_terms::{self, XUnit};
 use crate::text::{Lines, Section, comment, has_part, is_one, lower};
-use crate::{uncertainty_terms, unit_text};
+use crate::{uncertainty_terms, unit_text, wavelengths};
 
 impl Header {
     /// The names, and units below them, from the lines just above the numbers.
@@ -438,7 +438,7 @@ fn unmarked(mut cells: Vec<String>, is_comment: bool) -> Vec<String> {
 fn with_other_axis(mut cells: Vec<String>, layout: &Layout, above: Option<&(usize, &str)>) -> Vec<String> {
     let above =
         above.filter(|_| cells[0].is_empty()).and_then(|(_, line)| split(layout.dialect(), line).into_iter().next());
-    if let Some(axis) = above.filter(|axis| header_terms::names_other_axis(axis)) {
+    if let Some(axis) = above.filter(|axis| wavelengths::names_other_axis(axis)) {
         cells[0] = axis;
     }
     cells

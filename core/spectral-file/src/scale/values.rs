@@ -81,14 +81,16 @@ fn by_headers(grid: &Grid, role: Role, evidence: &Evidence) -> Option<(Decided<V
         None if assumed => format!("Some columns are headed {first}, and the table has one scale"),
         None => format!("Some columns, and only they, are headed {first}"),
     };
-    let columns = columns.into_iter().map(|values| values.unwrap_or(Values::Plain)).collect();
+    let columns: Vec<Values> = columns.into_iter().map(|values| values.unwrap_or(Values::Plain)).collect();
     // `abs_bg` may be a coefficient; a column of absorbances is called so, or ends in `Abs`.
     let short = |curve: &RawCurve| {
         let label = curve.label.to_lowercase();
         let bare = label.split(['(', '[']).next().unwrap_or_default().trim().trim_end_matches('.');
         label.contains("abs") && !label.contains("absorban") && !bare.ends_with("abs")
     };
-    let assumed = assumed || first == Values::Absorbance && grid.curves.iter().any(short);
+    // Beside some that are headed so, others may be of them without a word: a model of what was measured.
+    let silent = first == Values::Absorbance && count < columns.len();
+    let assumed = assumed || silent || first == Values::Absorbance && grid.curves.iter().any(short);
     Some((if assumed { Decided::guess(first, why) } else { Decided::certain(first, why) }, columns))
 }
 
