@@ -74,6 +74,48 @@ fn bands_of_detectors_overlap() {
 }
 
 #[test]
+fn units_and_names_in_few_words() {
+    let rows = lines(|nm| format!("{nm} 0.5\n"));
+    let angstroms = lines(|at| format!("{}.5 0.5\n", 4000 + 10 * at));
+    let filter = ok(&format!("# mean wavelength (A): 4200\n{angstroms}"));
+    assert_eq!(filter.reading.wavelength_unit.value, WavelengthUnit::Angstrom);
+    let energies = (0..40).map(|at| format!("{} 1.5\n", 1.5 + 0.05 * f64::from(at))).collect::<Vec<_>>().concat();
+    let table = ok(&format!("# freq(eV) eps\n{energies}"));
+    assert_eq!(table.reading.wavelength_unit.value, WavelengthUnit::Electronvolt);
+    let bands = (1..41).map(|at| format!(",{} ", 380 + 5 * at)).collect::<Vec<_>>().concat();
+    let across = ok(&format!("name,380 [nm]{bands}\nleaf,0.5{}\nbark,0.25{}\n", ",0.5".repeat(40), ",0.25".repeat(40)));
+    assert_eq!((across.reading.range_nm, across.curves[0].values.len()), ([380.0, 580.0], 41));
+    let legend = ok(&format!("# [1] = wavelength (nm)\n# [2] = refractive index of a leaf\n{rows}"));
+    assert_eq!(names(&legend), ["refractive index of a leaf"]);
+    let bytes =
+        " 1-  4 F6.1   0.1nm   Wave   Wavelength\n 6- 10 F5.3   ---  Flux  flux\n12- 16 F5.3  --- e_Flux  its error\n";
+    let journal = ok(&format!("{bytes}{}", lines(|at| format!("{}.5 0.5 0.1\n", 4000 + 10 * at))));
+    assert_eq!((names(&journal), journal.reading.wavelength_unit.value), (vec!["Flux"], WavelengthUnit::Angstrom));
+    assert!(journal.curves[0].uncertainty.is_some());
+    let columns = ok(&format!("# columns: wavelength_Angstrom  flam_erg_s_cm2_A (any scale)\n{angstroms}"));
+    assert_eq!((names(&columns), columns.role.value), (vec!["flam"], Role::Illuminant));
+}
+
+#[test]
+fn what_is_only_beside_spectra_is_asked_about() {
+    let role = |text: &str| ok(text).role;
+    let widths =
+        role(&format!("number,center_wavelength,band_width\n{}", lines(|at| format!("{},{at},9.{at}\n", at - 399))));
+    assert_eq!((widths.value, widths.certainty), (Role::Unknown, Certainty::Open));
+    let logs = role(&format!("nm,L,M,S\n{}", lines(|nm| format!("{nm},-0.5,-1.{nm},-2.5\n"))));
+    assert_eq!(logs.certainty, Certainty::Open);
+    let model = ok(&format!("nm,Absorbance,model\n{}", lines(|nm| format!("{nm},0.{nm},0.{nm}\n"))));
+    assert_eq!((model.reading.values.value, model.reading.values.certainty), (Values::Absorbance, Certainty::Guess));
+    let years = (1960..2010).map(|year| format!(",{year}")).collect::<Vec<_>>().concat();
+    assert!(
+        read(format!("Country{years}\nAruba{}\n", ",500.5".repeat(50)).as_bytes(), &ReadOptions::default()).is_err()
+    );
+    let places =
+        (0..200).map(|at| format!("{} {} {}\n", 2400 + at / 20, 2600 + at, at % 90)).collect::<Vec<_>>().concat();
+    assert!(matches!(error(&places), ReadError::NoWavelengths(_)));
+}
+
+#[test]
 fn rows_at_angles_of_an_ellipsometer() {
     let rows = lines(|nm| format!("{nm}\t65\t45.{nm}\t120.5\t0.01\t0.02\n"));
     let table = ok(&format!("wafer\nVASEmethod[EllipsometerType=4]\nnm\n{rows}"));
