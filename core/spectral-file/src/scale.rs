@@ -63,6 +63,8 @@ impl Scale {
 }
 
 pub(super) fn convert(grid: &mut Grid, scale: &Scale) {
+    // A title is the name of a sample, whatever it says.
+    let title = grid.header.comment("title").map(str::to_owned);
     let plain_by_choice = scale.values.certainty == Certainty::Chosen && scale.values.value == Values::Plain;
     for (curve, &values) in grid.curves.iter_mut().zip(&scale.columns) {
         if values == Values::Plain {
@@ -70,7 +72,9 @@ pub(super) fn convert(grid: &mut Grid, scale: &Scale) {
             curve.unit = curve.unit.take().filter(|unit| !(plain_by_choice && denied(unit)));
             continue;
         }
+        let name = Some(&curve.name).filter(|name| curve.label.is_empty() && title.as_ref() == Some(*name)).cloned();
         relabel(curve, values, scale.role.value);
+        curve.name = name.unwrap_or_else(|| std::mem::take(&mut curve.name));
         let plain = |value: f64| match values {
             Values::Plain => value,
             Values::Percent => decimal::shifted(value, -2),
