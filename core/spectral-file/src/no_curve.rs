@@ -1,6 +1,8 @@
 //! Numbers that are no curve: temperatures, times, counts of rows, other scales of the same samples, the counts that some
 //! instruments write beside the curve they made of them, and numbers that stand for missing values (−999, 9999, −1.23e34).
 
+use std::collections::BTreeSet;
+
 use crate::decimal::extent;
 use crate::decision::{Decided, Decision, Values};
 use crate::grid::{Grid, RawCurve, retain};
@@ -123,9 +125,9 @@ fn warn_of_integrals(grid: &Grid, log: &mut Log<'_>) {
     const NOTHING: f64 = 1e-3;
     let is_sum = |curve: &&RawCurve| {
         let (Some(first), Some(last)) = (curve.values.first(), curve.values.last()) else { return false };
-        let far = first.abs() < NOTHING * last && grid.wavelengths.len() >= FEWEST_VALUES;
         !curve.named
-            && far
+            && first.abs() < NOTHING * last
+            && grid.wavelengths.len() >= FEWEST_VALUES
             && curve.values.is_sorted_by(|a, b| a <= b)
             && curve.values.windows(2).filter(|pair| pair[0] < pair[1]).count() * 2 > curve.values.len()
     };
@@ -133,6 +135,19 @@ fn warn_of_integrals(grid: &Grid, log: &mut Log<'_>) {
     if let Some(first) = sums.next().filter(|_| !is_own(grid)) {
         log.push(Warning::Integral { count: 1 + sums.count(), first: first.description() });
     }
+}
+
+/// How many different numbers there are, at most one more than `most`.
+fn levels(numbers: impl Iterator<Item = f64>, most: usize) -> usize {
+    const BITS_OF_ZERO: u64 = 0;
+    let mut found = BTreeSet::new();
+    for number in numbers {
+        found.insert(if number == 0.0 { BITS_OF_ZERO } else { number.to_bits() });
+        if found.len() > most {
+            break;
+        }
+    }
+    found.len()
 }
 
 /// Warns of columns of whole numbers, or of few or nearly equal ones, beside others that are not so.
@@ -143,21 +158,21 @@ fn warn_of_steps(grid: &Grid, log: &mut Log<'_>) {
     const FEW_OF: usize = 10;
     let is_stepped = |curve: &&RawCurve| {
         let present = || curve.values.iter().copied().filter(|value| !value.is_nan());
-        let mut levels: Vec<f64> = present().collect();
-        levels.sort_unstable_by(f64::total_cmp);
-        levels.dedup();
+        let levels = levels(present(), LEVELS);
         // Of which others warn.
-        let is_constant = levels.len() == 1 && (levels[0] == 0.0 || !curve.named);
-        let (low, high) = extent(present());
-        let steady = || curve.named && high - low < STEADY * high.abs().max(low.abs());
+        let is_constant = levels == 1 && (curve.values[0] == 0.0 || !curve.named);
+        let steady = || {
+            let (low, high) = extent(present());
+            curve.named && high - low < STEADY * high.abs().max(low.abs())
+        };
         // Counts of detectors are whole too, but hardly the same twice.
         let whole = || {
-            let fractions = present().filter(|value| value.fract() != 0.0).count();
-            let values = present().filter(|value| *value != 0.0).count();
-            FEW_OF * fractions.max(levels.len()) < values.max(FEW_OF * FEWEST_VALUES) && fractions == 0
+            let filled = present().filter(|value| *value != 0.0).count();
+            present().all(|value| value.fract() == 0.0)
+                && FEW_OF * self::levels(present(), filled) < filled.max(FEW_OF * FEWEST_VALUES)
         };
         let is_light = || curve.name == "E" || header_terms::names_illuminant(&curve.name);
-        !is_constant && (levels.len() <= LEVELS || steady() || whole()) && !is_light()
+        !is_constant && (levels <= LEVELS || steady() || whole()) && !is_light()
     };
     let stepped: Vec<&RawCurve> = grid.curves.iter().filter(is_stepped).collect();
     if let [first, ..] = stepped[..]
@@ -261,8 +276,12 @@ fn are_widths(wavelengths: &[f64], column: &[f64]) -> bool {
     const LEAST: f64 = 1.05;
     const CLOSE: f64 = 0.02;
     let steps = || wavelengths.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+    let fit = |(step, width): &(f64, &f64)| (*width / step - 1.0).abs() < CLOSE;
+    if !steps().zip(column).take(FEWEST_ROWS).any(|pair| fit(&pair)) {
+        return false;
+    }
     let (least, most) = extent(steps());
-    let fits = steps().zip(column).filter(|(step, width)| (*width / step - 1.0).abs() < CLOSE).count();
+    let fits = steps().zip(column).filter(fit).count();
     least > 0.0 && most > LEAST * least && 10 * fits > 9 * wavelengths.len()
 }
 

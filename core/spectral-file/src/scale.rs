@@ -26,7 +26,8 @@ pub(super) fn decide(grid: &Grid, options: &ReadOptions, log: &mut Log<'_>) -> S
     let said = role::said(grid, options.values.filter(|_| options.role.is_none()));
     let from_file = said.is_some();
     let content = said.unwrap_or_else(|| role::suggested(grid, &evidence));
-    let content = role::of_logarithms(grid).filter(|_| content.value != Role::Unknown).unwrap_or(content);
+    let logarithms = || role::of_logarithms(grid).filter(|_| content.value != Role::Unknown);
+    let content = logarithms().unwrap_or(content);
     let role = Decided::or_chosen(options.role, || content.clone());
     let (values, columns) = values::decide(grid, options, &role, from_file, &evidence, log);
     Scale { role, content, values, columns }

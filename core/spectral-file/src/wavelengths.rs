@@ -309,8 +309,10 @@ pub(super) fn sort(grid: &mut Grid, unit: &Decided<WavelengthUnit>, log: &mut Lo
         return Err(ReadError::OneWavelength { line: grid.line(from), nm, count, rows });
     }
     let (line, averaged) = (grid.line(0), merge_repeats(grid, log));
-    // So many values at one wavelength each are of other axes, such as places.
-    if unit.certainty == Certainty::Guess && !is_named(grid) && FEWEST_IN_ORDER < rows && 2 * averaged > rows {
+    // So many pairs of values at one whole number each are of other axes, such as places.
+    let whole = || grid.curves.len() > 1 && grid.wavelengths.iter().all(|nm| nm.fract() == 0.0);
+    let guessed = unit.certainty == Certainty::Guess && !is_named(grid);
+    if guessed && FEWEST_IN_ORDER < rows && 2 * averaged > rows && whole() {
         return Err(ReadError::NoWavelengths(line));
     }
     Ok(descending)

@@ -84,10 +84,12 @@ pub(super) fn find(header: &Header, at: usize, wavelengths: &[f64], before: &[Ve
     axes.guessed = guess_pairs(header, at, wavelengths, columns, &mut kinds);
     // Tables side by side repeat the name of their first column.
     for index in (0..columns.len()).filter(|index| header.name(at + 1 + index).is_some()) {
-        let again = is_again(header.name(at), header.name(at + 1 + index)) || has_ends_of(wavelengths, &columns[index]);
+        let alike = header.name(at).is_some() && header.name(at + 1 + index) == header.name(at);
+        let again = header.name(at + 1 + index) == header.name(at)
+            || shares_stem(header.name(at), header.name(at + 1 + index)) && runs_one_way(&columns[index])
+            || has_ends_of(wavelengths, &columns[index]);
         // Points read off a plot may go back a little.
         let (low, high) = extent(columns[index].iter().copied().filter(|value| !value.is_nan()));
-        let alike = header.name(at).is_some() && header.name(at + 1 + index) == header.name(at);
         if kinds[index] == Kind::Value && again && units::plausible(low, high, alike) {
             (kinds[index], axes.guessed) = (Kind::Wavelengths, true);
         }
@@ -108,10 +110,10 @@ pub(super) fn find(header: &Header, at: usize, wavelengths: &[f64], before: &[Ve
     axes
 }
 
-/// Returns whether a name is that of the first column, or differs from it in the word behind the last underscore: `wl_a`, `wl_b`.
-fn is_again(first: Option<&str>, name: Option<&str>) -> bool {
-    let stem = |name: Option<&'_ str>| name.and_then(|name| name.rsplit_once('_')).map(|(stem, _)| stem.to_owned());
-    first == name || stem(first).is_some() && stem(first) == stem(name)
+/// Returns whether two names differ in the word behind the last underscore: `wl_a`, `wl_b`.
+fn shares_stem(first: Option<&str>, name: Option<&str>) -> bool {
+    let stems = first.zip(name).and_then(|(first, name)| Some((first.rsplit_once('_')?.0, name.rsplit_once('_')?.0)));
+    stems.is_some_and(|(first, name)| first == name)
 }
 
 /// True for numbers that run from where the wavelengths begin to where they end, as no values do. Points read off a plot may go back

@@ -19,18 +19,14 @@ const LOGARITHM: f64 = -0.5;
 /// Role that words in the file state or mention, or that suits the scale that was chosen.
 pub(super) fn said(grid: &Grid, chosen: Option<Values>) -> Option<Decided<Role>> {
     let said = stated(grid).or_else(|| hinted(grid, chosen))?;
-    let mut lights = grid.curves.iter().filter(|curve| header_terms::names_illuminant(&curve.name));
-    match lights.next().filter(|_| said.value == Role::Camera && said.certainty != Certainty::Certain) {
-        Some(light) => Some(Decided::open(
-            Role::Unknown,
-            format!(
-                "“{}” is a light, others are sensitivities: {}",
-                excerpt(&light.name),
-                chromascope_text::lowered(&said.why)
-            ),
-        )),
-        None => Some(said),
+    if said.value != Role::Camera || said.certainty == Certainty::Certain {
+        return Some(said);
     }
+    let Some(light) = grid.curves.iter().find(|curve| header_terms::names_illuminant(&curve.name)) else {
+        return Some(said);
+    };
+    let (light, why) = (excerpt(&light.name), chromascope_text::lowered(&said.why));
+    Some(Decided::open(Role::Unknown, format!("“{light}” is a light, others are sensitivities: {why}")))
 }
 
 /// Role that the format, the header, the names of columns or a setting state.
@@ -439,9 +435,12 @@ pub(super) fn of_logarithms(grid: &Grid) -> Option<Decided<Role>> {
     let decibels = |values: Option<Values>| values == Some(Values::Decibels);
     let said = grid.header.values.map(|(_, values)| values);
     let losses = || decibels(said) || grid.curves.iter().any(|curve| decibels(header_terms::values(&curve.label)));
-    let (low, high) = extent(grid.curves.iter().flat_map(|curve| curve.values.iter().copied()));
+    let values = || grid.curves.iter().flat_map(|curve| curve.values.iter().copied());
+    if values().any(|value| value > 0.0) || extent(values()).0 >= LOGARITHM || losses() {
+        return None;
+    }
     let why = "No value is above zero, as of logarithms: raise ten to their power first";
-    (high <= 0.0 && low < LOGARITHM && !losses()).then(|| Decided::open(Role::Unknown, why))
+    Some(Decided::open(Role::Unknown, why))
 }
 
 pub(super) const MOST_CHANNELS: usize = 4;

@@ -18,7 +18,8 @@ use crate::watch::{Log, PlaceKind};
 use crate::{uncertainty_terms, units};
 
 /// Keys of names, the most telling first.
-const NAMES: &str = "title|name|spd name|spectrum name|sample name|sample|label|camera name|camera|model|sample id|band id|id|channel|material|state";
+const NAMES: &str = "title|name|spd name|spectrum name|sample name|sample|label|camera name|camera|model|sample id|band id|id|\
+    channel|material|state";
 const QUANTITIES: &str = "measurement type|quantity|measurement|spectrum type|data type|type|kind|mode|y label";
 const UNITS: &str = "unit|units|y unit|y units|value unit|values unit|scale";
 /// Keys of objects whose texts are about the object around.
