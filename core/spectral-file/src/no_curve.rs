@@ -161,10 +161,8 @@ fn warn_of_steps(grid: &Grid, log: &mut Log<'_>) {
         let levels = levels(present(), LEVELS);
         // Of which others warn.
         let is_constant = levels == 1 && (curve.values[0] == 0.0 || !curve.named);
-        let steady = || {
-            let (low, high) = extent(present());
-            curve.named && high - low < STEADY * high.abs().max(low.abs())
-        };
+        let near = |value: f64| (value - curve.values[0]).abs() < STEADY * value.abs();
+        let steady = || curve.named && present().all(near);
         // Counts of detectors are whole too, but hardly the same twice.
         let whole = || {
             let filled = present().filter(|value| *value != 0.0).count();
@@ -394,7 +392,7 @@ fn is_side(lower: &str) -> bool {
     lower.ends_with(" (ref.)") || lower.ends_with(" (target)")
 }
 
-/// Numbers that programs write for missing values, as sizes; each with either sign. (−9999 is one wherever it stands.)
+/// Numbers that programs write for missing values, as sizes, the smallest first; each with either sign. (−9999 is one wherever it stands.)
 const SIZES: [f64; 17] = [
     9.999, 99.0, 99.9, 99.99, 999.0, 999.25, 999.9, 999.99, 8_888.0, 9_999.0, 9_999.9, 9_999.99, 99_999.0, 999_999.0,
     32_767.0, 32_768.0, 65_535.0,
@@ -421,7 +419,9 @@ const TIMES: [f64; 2] = [10.0, 5.0];
 fn is_candidate(value: f64) -> bool {
     let size = value.abs();
     // A reading of 99 is no rarity above zero.
-    is_huge(size) || LARGE_SIZES.contains(&size) || SIZES.contains(&size) && (value < 0.0 || size >= 999.0)
+    // Most values are smaller than all of them.
+    size >= SIZES[0]
+        && (is_huge(size) || LARGE_SIZES.contains(&size) || SIZES.contains(&size) && (value < 0.0 || size >= 999.0))
 }
 
 /// Returns whether a number stands for a missing value beside the others, which run from `low` to `high` if there are any.
@@ -453,10 +453,10 @@ pub(super) fn take_sentinels(grid: &mut Grid, log: &mut Log<'_>) {
     let mut cells = 0;
     let mut first: Option<Sentinel> = None;
     for curve in &mut grid.curves {
-        let marked = repeats_minus_one(&curve.values);
-        if !marked && !curve.values.iter().any(|value| is_candidate(*value)) {
+        if !curve.values.iter().any(|value| *value == -1.0 || is_candidate(*value)) {
             continue;
         }
+        let marked = repeats_minus_one(&curve.values);
         let others = extent(curve.values.iter().copied().filter(|value| !value.is_nan() && !is_candidate(*value)));
         let is_none = |value: &f64| stands_for_none(*value, others) || marked && *value == -1.0;
         let Some(&number) = curve.values.iter().find(|value| is_none(value)) else { continue };
