@@ -184,14 +184,8 @@ pub(super) fn groups(dialect: Dialect, line: &str) -> Vec<Group> {
     let (mut wrong, mut overlaps) = (0, 0);
     for (index, &(column, band)) in bands.iter().enumerate() {
         let next = bands.get(index + 1).map(|(_, next)| next);
-        // The first may have the unit of all: `380 [nm],385,390`.
-        if let [(_, first)] = &mut run[..]
-            && band.unit.is_none()
-            && (first.prefix, first.suffix) == (band.prefix, band.suffix)
-        {
-            of_all = first.unit.take();
-            stated = stated.or(of_all);
-        }
+        of_all = of_all.or_else(|| unit_of_all(&mut run, &band));
+        stated = stated.or(of_all);
         let (begun, beside) =
             (run.first().map(|(_, first)| first.wavelength), run.last().is_some_and(|(last, _)| last + 1 == column));
         match step(&run, &band, next) {
@@ -236,6 +230,13 @@ pub(super) fn groups(dialect: Dialect, line: &str) -> Vec<Group> {
         return Vec::new();
     }
     all
+}
+
+/// Takes the unit that the first of several bands has for all: `380 [nm],385,390`.
+fn unit_of_all(run: &mut [(usize, Band<'_>)], band: &Band<'_>) -> Option<WavelengthUnit> {
+    let [(_, first)] = run else { return None };
+    let alike = band.unit.is_none() && (first.prefix, first.suffix) == (band.prefix, band.suffix);
+    if alike { first.unit.take() } else { None }
 }
 
 /// The most detectors of one instrument whose ranges overlap, but one.

@@ -154,8 +154,7 @@ pub(super) fn read(section: Section<'_>, layout: &Layout) -> Header {
         }
         let line = body.map_or_else(|| whole(section, line, layout.dialect(), &mut lines), |_| line);
         if let Some((key, value)) = body.and_then(|body| body.split_once(':')) {
-            let names = || legend::listed_names(key, value, layout);
-            named_above = named_above.or_else(|| Some((number, names()?)));
+            named_above = named_above.or_else(|| Some((number, legend::listed_names(key, value, layout)?)));
             header.take_comment(number, key.trim(), value.trim());
             continue;
         }
